@@ -1,0 +1,42 @@
+PYTHON ?= python3
+BIN := .venv/bin
+
+.PHONY: help demo test check format docs bench clean
+
+help:  ## print this menu
+	@awk -F ':.*## ' '/^[a-z]+:.*## /{printf "make %-8s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
+
+.venv/run: pyproject.toml
+	$(PYTHON) -m venv .venv
+	$(BIN)/pip install --quiet --disable-pip-version-check --editable .
+	touch $@
+
+.venv/dev: .venv/run
+	$(BIN)/pip install --quiet --disable-pip-version-check --editable '.[test,check]'
+	touch $@
+
+demo: .venv/run  ## simulate a laser scan, mesh it, print the certificate, write mesh and picture to demo/
+	$(BIN)/pointchart demo -o demo
+
+test: .venv/dev  ## run all tests
+	$(BIN)/pytest
+
+check: .venv/dev  ## format, lint, types, import contracts
+	$(BIN)/ruff format --check .
+	$(BIN)/ruff check .
+	$(BIN)/mypy
+	$(BIN)/lint-imports
+
+format: .venv/dev  ## format and sort imports
+	$(BIN)/ruff format .
+	$(BIN)/ruff check --fix .
+
+bench: .venv/dev  ## reproduce the paper's tables and time the stages
+	$(BIN)/python benchmarks/paper.py
+	$(BIN)/python benchmarks/stages.py
+
+docs: .venv/dev  ## draw the paper's figures into docs/figures
+	$(BIN)/python benchmarks/figures.py docs/figures
+
+clean:  ## remove everything that make has built
+	rm -rf .venv demo build
