@@ -1,0 +1,81 @@
+"""The checks at the door: every public function calls these and trusts its data afterwards."""
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from .errors import InputError
+from .typing import Indices, Loop, Points
+
+
+def name_some(indices: Sequence[int] | Indices, shown: int = 3) -> str:
+    """Name a few indices and count the rest.
+
+    >>> name_some([17, 40, 5, 8, 9])
+    '17, 40, 5 and 2 more'
+    >>> name_some([17])
+    '17'
+    """
+    text = ", ".join(str(int(i)) for i in indices[:shown])
+    return text + (f" and {len(indices) - shown} more" if len(indices) > shown else "")
+
+
+def check_points(points: ArrayLike, least: int = 4) -> Points:
+    """Return points as a contiguous (n, 3) float64 array, or say what is wrong with them.
+
+    Raises
+    ------
+    InputError
+        On a wrong shape, fewer than `least` points, NaN or infinity, or points that all lie on one line.
+    """
+    array = np.ascontiguousarray(points, dtype=np.float64)
+    if array.ndim != 2 or array.shape[1] != 3:
+        raise InputError(f"points have shape {array.shape}; (n, 3) is needed: one row of x, y, z for each point")
+    if len(array) < least:
+        raise InputError(f"the scan has {len(array)} points; a surface patch needs at least {least}")
+    broken = np.flatnonzero(~np.isfinite(array).all(axis=1))
+    if len(broken):
+        raise InputError(
+            f"{len(broken)} points are NaN or infinite, the first at index {broken[0]}; remove them from the scan"
+        )
+    centred = array - array[0]
+    extent = np.abs(centred).max()
+    if extent == 0.0:
+        raise InputError(f"all {len(array)} points are the same; a surface patch needs points that differ")
+    spread = np.linalg.svd(centred / extent - (centred / extent).mean(axis=0), compute_uv=False)
+    if spread[1] <= 1e-12 * spread[0]:
+        raise InputError(f"all {len(array)} points lie on one line, which bounds no surface; check the columns read")
+    return array
+
+
+def check_loop(loop: ArrayLike, n_points: int) -> Loop:
+    """Return a boundary loop as (b,) int64 with a repeated closing entry dropped, or say what is wrong with it.
+
+    Raises
+    ------
+    InputError
+        On entries that are no whole numbers, out of range or repeated, or fewer than 3 of them.
+    """
+    given = np.asarray(loop)
+    if given.ndim != 1 or not np.issubdtype(given.dtype, np.integer):
+        raise InputError(f"the boundary has shape {given.shape} and type {given.dtype}; a list of point indices is needed")
+    array = np.ascontiguousarray(given, dtype=np.int64)
+    if len(array) > 1 and array[0] == array[-1]:
+        array = array[:-1]
+    outside = np.flatnonzero((array < 0) | (array >= n_points))
+    if len(outside):
+        raise InputError(
+            f"{len(outside)} boundary entries name no point, the first is {array[outside[0]]} at position {outside[0]}; "
+            f"indices run from 0 to {n_points - 1}"
+        )
+    if len(array) < 3:
+        raise InputError(f"the boundary has {len(array)} points; a loop needs at least 3")
+    names, counts = np.unique(array, return_counts=True)
+    repeated = names[counts > 1]
+    if len(repeated):
+        raise InputError(
+            f"boundary points {name_some(repeated)} are named more than once, but a loop passes each once; "
+            "drop the repetitions"
+        )
+    return array

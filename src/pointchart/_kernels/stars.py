@@ -1,0 +1,137 @@
+"""Delaunay neighbourhoods by inversion: one small convex hull a point instead of one triangulation a point.
+
+With the centre at the origin of its plane and q' = q / |q|^2, the Delaunay neighbours of the centre are the vertices of the
+convex hull of {q'}. The centre is on the hull of its neighbours when a gap of at least pi opens between them; its star is
+then the hull of {q'} and the origin, less the origin.
+"""
+
+import math
+
+import numpy as np
+from numba import njit
+
+from .planes import tangent_frame
+
+OPEN_GAP_SINE = 1e-6  # a gap within 1e-6 rad of pi counts as open: rounding must not wrap a star across it
+FLAT_TURN_SINE = 1e-10  # neighbours on a common circle up to rounding: the middle one goes, so that a grid gives four
+
+
+@njit(cache=True, nogil=True, inline="always")
+def pseudo_angle(x, y):
+    """Return a number in [0, 4) that grows with the angle of (x, y)."""
+    p = x / (abs(x) + abs(y))
+    return 1.0 - p if y >= 0.0 else 3.0 + p
+
+
+@njit(cache=True, nogil=True, inline="always")
+def turns_left(ax, ay, bx, by, cx, cy):
+    """Tell whether the path a, b, c turns left by more than rounding."""
+    ux, uy, vx, vy = bx - ax, by - ay, cx - bx, cy - by
+    cross = ux * vy - uy * vx
+    return cross > FLAT_TURN_SINE * math.sqrt((ux * ux + uy * uy) * (vx * vx + vy * vy))
+
+
+@njit(cache=True, nogil=True)
+def project(points, normal, i, neighbors, steepest, name, x, y, angle):
+    """Project neighbours to the tangent plane, sorted by angle; return how many are left.
+
+    Neighbours steeper than `steepest` (sine against the plane) belong to another sheet and go; of those in one
+    direction the nearest stays.
+    """
+    ux, uy, uz, vx, vy, vz = tangent_frame(normal[0], normal[1], normal[2])
+    n = 0
+    for j in neighbors:
+        dx, dy, dz = points[j, 0] - points[i, 0], points[j, 1] - points[i, 1], points[j, 2] - points[i, 2]
+        px, py = dx * ux + dy * uy + dz * uz, dx * vx + dy * vy + dz * vz
+        flat = px * px + py * py
+        if j == i or flat <= (1.0 - steepest * steepest) * (dx * dx + dy * dy + dz * dz):
+            continue
+        t = pseudo_angle(px, py)
+        k = n
+        while k > 0 and angle[k - 1] > t:
+            name[k], x[k], y[k], angle[k] = name[k - 1], x[k - 1], y[k - 1], angle[k - 1]
+            k -= 1
+        name[k], x[k], y[k], angle[k] = j, px, py, t
+        n += 1
+    kept = 0
+    for k in range(n):
+        if kept > 0 and angle[k] == angle[kept - 1]:
+            if x[k] ** 2 + y[k] ** 2 >= x[kept - 1] ** 2 + y[kept - 1] ** 2:
+                continue
+            kept -= 1
+        name[kept], x[kept], y[kept], angle[kept] = name[k], x[k], y[k], angle[k]
+        kept += 1
+    return kept
+
+
+@njit(cache=True, nogil=True)
+def gap_end(x, y, n):
+    """Return the neighbour behind a gap of at least pi, anticlockwise, or -1 where there is none."""
+    if n < 3:
+        return 0 if n < 2 or x[0] * y[1] - y[0] * x[1] > 0.0 else 1
+    for k in range(n):
+        m = k + 1 if k + 1 < n else 0
+        cross = x[k] * y[m] - y[k] * x[m]
+        slack = OPEN_GAP_SINE * math.sqrt((x[k] ** 2 + y[k] ** 2) * (x[m] ** 2 + y[m] ** 2))
+        if cross < -slack or (cross <= slack and x[k] * x[m] + y[k] * y[m] < 0.0):
+            return m
+    return -1
+
+
+@njit(cache=True, nogil=True)
+def hull_of_inverses(x, y, n, start, is_open, stack):
+    """Write the Delaunay neighbours among n sorted ones to `stack`, anticlockwise from `start`; return how many."""
+    size = 0
+    for step in range(n if is_open else n + 1):
+        k = (start + step) % n
+        kk = x[k] * x[k] + y[k] * y[k]
+        while size > 1:
+            a, b = stack[size - 2], stack[size - 1]
+            aa, bb = x[a] * x[a] + y[a] * y[a], x[b] * x[b] + y[b] * y[b]
+            if turns_left(x[a] / aa, y[a] / aa, x[b] / bb, y[b] / bb, x[k] / kk, y[k] / kk):
+                break
+            size -= 1
+        stack[size] = k
+        size += 1
+    return size if is_open else size - 1
+
+
+@njit(cache=True, nogil=True)
+def circumdiameter(ax, ay, bx, by):
+    """Return the diameter of the circle through the origin, a and b."""
+    cross = abs(ax * by - ay * bx)
+    if cross == 0.0:
+        return np.inf
+    return math.sqrt((ax * ax + ay * ay) * (bx * bx + by * by) * ((ax - bx) ** 2 + (ay - by) ** 2)) / cross
+
+
+@njit(cache=True, nogil=True)
+def delaunay_stars(points, normals, indptr, indices, steepest, first, last, star, local, count, is_open, diameter):
+    """Find the Delaunay neighbours of points first..last among their candidates.
+
+    The star of point i takes the first `count[i]` places of its candidates' row: names in `star`, planar positions in
+    `local`, anticlockwise. `diameter` is that of its largest circumcircle.
+    """
+    most = 1
+    for i in range(first, last):
+        most = max(most, indptr[i + 1] - indptr[i])
+    name, stack = np.empty(most, np.int64), np.empty(most + 2, np.int64)
+    x, y, angle = np.empty(most), np.empty(most), np.empty(most)
+    for i in range(first, last):
+        row = indices[indptr[i] : indptr[i + 1]]
+        n = project(points, normals[i], i, row, steepest, name, x, y, angle)
+        start = gap_end(x, y, n)
+        is_open[i] = start >= 0
+        if not is_open[i]:
+            start = 0
+            for k in range(1, n):
+                if x[k] ** 2 + y[k] ** 2 < x[start] ** 2 + y[start] ** 2:
+                    start = k
+        size = hull_of_inverses(x, y, n, start, is_open[i], stack) if n > 0 else 0
+        count[i], diameter[i] = size, 0.0
+        for s in range(size):
+            k, m = stack[s], stack[s + 1 if s + 1 < size else 0]
+            e = indptr[i] + s
+            star[e], local[e, 0], local[e, 1] = name[k], x[k], y[k]
+            if s + 1 < size or not is_open[i]:
+                diameter[i] = max(diameter[i], circumdiameter(x[k], y[k], x[m], y[m]))

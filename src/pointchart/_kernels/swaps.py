@@ -1,0 +1,117 @@
+"""Delaunay edge swaps in space."""
+
+import math
+
+from numba import njit
+
+from .half_edges import following, preceding
+
+ROUNDING = 1e-12
+MOST_SWAPS_OF_A_TRIANGLE = 100
+
+
+@njit(cache=True, nogil=True)
+def angle_parts(points, apex, a, b):
+    """Return dot product, cross product's norm and product of lengths of the edges from `apex` to a and b."""
+    ux, uy, uz = points[a, 0] - points[apex, 0], points[a, 1] - points[apex, 1], points[a, 2] - points[apex, 2]
+    vx, vy, vz = points[b, 0] - points[apex, 0], points[b, 1] - points[apex, 1], points[b, 2] - points[apex, 2]
+    cx, cy, cz = uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx
+    length = math.sqrt((ux * ux + uy * uy + uz * uz) * (vx * vx + vy * vy + vz * vz))
+    return ux * vx + uy * vy + uz * vz, math.sqrt(cx * cx + cy * cy + cz * cz), length
+
+
+@njit(cache=True, nogil=True, inline="always")
+def angle_sum_measure(points, p, q, a, b):
+    """Return a number in [0, 4] that grows with the sum of the angles at p and q opposite to edge ab, from 0 to 2 pi."""
+    dot_p, cross_p, length_p = angle_parts(points, p, a, b)
+    dot_q, cross_q, length_q = angle_parts(points, q, a, b)
+    length = length_p * length_q
+    if length == 0.0:
+        return 4.0
+    cosine = (dot_p * dot_q - cross_p * cross_q) / length
+    return 3.0 + cosine if dot_p * cross_q + cross_p * dot_q < 0.0 else 1.0 - cosine
+
+
+@njit(cache=True, nogil=True)
+def are_joined(corners, twin, h, other):
+    """Tell whether the origin of half-edge h and the point `other` share an edge."""
+    k = h
+    while True:
+        if corners[following(k)] == other or corners[preceding(k)] == other:
+            return True
+        k = twin[preceding(k)]
+        if k < 0 or k == h:
+            break
+    if k == h:
+        return False
+    k = twin[h]
+    while k >= 0:
+        k = following(k)
+        if corners[following(k)] == other or corners[preceding(k)] == other:
+            return True
+        k = twin[k]
+    return False
+
+
+@njit(cache=True, nogil=True)
+def link(twin, h, k):
+    """Make two half-edges opposite to each other; k may be -1."""
+    twin[h] = k
+    if k >= 0:
+        twin[k] = h
+
+
+@njit(cache=True, nogil=True)
+def swap(corners, twin, h):
+    """Replace edge ab, which half-edge h runs along, by the other diagonal cd of its two triangles.
+
+    Triangles (a, b, c) and (b, a, d) become (d, b, c) and (c, a, d): each keeps two corners in their places.
+    """
+    t = twin[h]
+    h_back, t_back = preceding(h), preceding(t)
+    outside_ca, outside_db = twin[h_back], twin[t_back]
+    corners[h], corners[t] = corners[t_back], corners[h_back]
+    link(twin, h, outside_db)
+    link(twin, t, outside_ca)
+    link(twin, h_back, t_back)
+
+
+@njit(cache=True, nogil=True)
+def delaunay_swaps(points, corners, twin, stack, queued, swapped):
+    """Swap edges until all are Delaunay in space; return how many swaps that took.
+
+    An edge is left alone when its replacement is there already. For points in a plane the swaps end by Lawson's theorem;
+    in space no theorem is known, so no triangle takes the lead in more than a fixed number of them.
+    """
+    size = 0
+    for h in range(len(corners)):
+        queued[h] = twin[h] > h
+        if queued[h]:
+            stack[size] = h
+            size += 1
+    total = 0
+    while size > 0:
+        size -= 1
+        h = stack[size]
+        queued[h] = False
+        t = twin[h]
+        if t < 0 or swapped[h // 3] >= MOST_SWAPS_OF_A_TRIANGLE:
+            continue
+        a, b, c, d = corners[h], corners[t], corners[preceding(h)], corners[preceding(t)]
+        if angle_sum_measure(points, c, d, a, b) <= angle_sum_measure(points, a, b, c, d) + ROUNDING:
+            continue
+        if are_joined(corners, twin, preceding(h), d):
+            continue
+        swap(corners, twin, h)
+        total += 1
+        swapped[h // 3] += 1
+        for side in (h, following(h), t, following(t)):
+            other = twin[side]
+            if other < 0:
+                continue
+            edge = min(side, other)
+            if not queued[edge] and not queued[max(side, other)]:
+                queued[edge] = True
+                stack[size] = edge
+                size += 1
+    return total

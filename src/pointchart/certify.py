@@ -1,0 +1,167 @@
+"""The proof, on each run, that a mesh is a disc on exactly the given points, with one-to-one parameters."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ._check import check_loop, check_points, name_some
+from ._exact import orientation_signs
+from .errors import InputError
+from .mesh import boundary_loops, fans, half_edges
+from .neighbors import spacing
+from .quality import dihedral_angles, edge_lengths
+from .triangulate import coinciding
+from .typing import Loop, Triangles
+
+FOLD_ANGLE = np.deg2rad(150.0)
+
+
+@dataclass(frozen=True, slots=True)
+class Certificate:
+    """What was found when a mesh was checked; all counts are exact.
+
+    Attributes
+    ----------
+    n_points, n_triangles : int
+    unused_points : int
+        Points in no triangle.
+    overfull_edges : int
+        Edges with more than two triangles, or with triangles of opposite orientation.
+    pinched_points : int
+        Points with more than one fan of triangles.
+    euler : int
+        Euler characteristic: points in use - edges + triangles; 1 for a disc.
+    boundary_loops : int
+    boundary_as_given : bool or None
+        Whether the boundary is the loop that was asked for, None if none was.
+    coinciding_uv : int or None
+        Points that share their parameters with others, None without uv.
+    flat_or_folded_uv : int or None
+        Triangles whose area in the plane is not positive, by exact arithmetic.
+    longest_edge_over_spacing : float
+        Largest ratio of an edge's length to the spacing of the points at its ends: a bridge over a gap shows here.
+    folds : int
+        Edges at which the surface turns back by more than 150 degrees.
+    """
+
+    n_points: int
+    n_triangles: int
+    unused_points: int
+    overfull_edges: int
+    pinched_points: int
+    euler: int
+    boundary_loops: int
+    boundary_as_given: bool | None
+    coinciding_uv: int | None
+    flat_or_folded_uv: int | None
+    longest_edge_over_spacing: float
+    folds: int
+
+    @property
+    def is_disc(self) -> bool:
+        """Whether the mesh is a disc on all points, with the boundary asked for."""
+        return not self.faults
+
+    @property
+    def is_one_to_one(self) -> bool:
+        """Whether the parameters are distinct and every triangle's area in the plane is positive."""
+        return self.coinciding_uv == 0 and self.flat_or_folded_uv == 0
+
+    @property
+    def faults(self) -> tuple[str, ...]:
+        """The ways in which the mesh is not the disc asked for, as phrases; empty when it is one."""
+        checks = (
+            (self.n_triangles == 0, "it has no triangles"),
+            (self.unused_points > 0, f"{self.unused_points} points are in no triangle"),
+            (self.overfull_edges > 0, f"{self.overfull_edges} edges have more than two triangles or turn over"),
+            (self.pinched_points > 0, f"{self.pinched_points} points have several fans of triangles"),
+            (self.euler != 1, f"its Euler characteristic is {self.euler} instead of 1"),
+            (self.boundary_loops != 1, f"it has {self.boundary_loops} boundary loops instead of 1"),
+            (self.boundary_as_given is False, "its boundary is not the loop given"),
+        )
+        return tuple(phrase for failed, phrase in checks if failed)
+
+
+def certify(
+    points: ArrayLike, triangles: ArrayLike, *, uv: ArrayLike | None = None, loop: ArrayLike | None = None
+) -> Certificate:
+    """Check a mesh against its points, its parameters and the boundary asked for.
+
+    Parameters
+    ----------
+    points : (n, 3) array
+    triangles : (m, 3) int array
+    uv : (n, 2) array, optional
+        Parameters, to be checked for being one-to-one.
+    loop : (b,) int array, optional
+        The boundary asked for; where it starts and which way it runs does not matter.
+
+    Returns
+    -------
+    Certificate
+
+    Raises
+    ------
+    InputError
+        If triangles name points that are not there, or uv has another length.
+
+    Examples
+    --------
+    >>> square = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]
+    >>> certify(square, [[0, 1, 2], [0, 2, 3]], loop=[3, 2, 1, 0]).is_disc
+    True
+    >>> certify(square, [[0, 1, 2]]).faults
+    ('1 points are in no triangle',)
+    """
+    cloud = check_points(points)
+    faces = _checked_triangles(triangles, len(cloud))
+    edges = half_edges(faces, len(cloud))
+    fan_counts = fans(edges, len(cloud))
+    n_edges = len(edges.twins) - int((edges.twins >= 0).sum()) // 2
+    is_manifold = edges.n_overfull == 0 and not (fan_counts > 1).any()
+    loops = boundary_loops(edges) if is_manifold else []
+    plane = None if uv is None else np.asarray(uv, dtype=np.float64)
+    if plane is not None and plane.shape != (len(cloud), 2):
+        raise InputError(f"uv has shape {plane.shape}; {len(cloud)} points need ({len(cloud)}, 2)")
+    ends, lengths = edge_lengths(cloud, faces)
+    local = spacing(cloud)[ends].max(axis=1)
+    return Certificate(
+        n_points=len(cloud),
+        n_triangles=len(faces),
+        unused_points=int((fan_counts == 0).sum()),
+        overfull_edges=edges.n_overfull,
+        pinched_points=int((fan_counts > 1).sum()),
+        euler=int((fan_counts > 0).sum()) - n_edges + len(faces),
+        boundary_loops=len(loops),
+        boundary_as_given=None if loop is None else _is_same_cycle(loops, check_loop(loop, len(cloud))),
+        coinciding_uv=None if plane is None else len(coinciding(plane)),
+        flat_or_folded_uv=None if plane is None else int((orientation_signs(plane, faces) <= 0).sum()),
+        longest_edge_over_spacing=float((lengths / local).max()) if len(faces) else 0.0,
+        folds=int((dihedral_angles(cloud, faces) > FOLD_ANGLE).sum()),
+    )
+
+
+def _checked_triangles(triangles: ArrayLike, n_points: int) -> Triangles:
+    faces = np.asarray(triangles)
+    if faces.size == 0:
+        return np.empty((0, 3), np.int64)
+    if faces.ndim != 2 or faces.shape[1] != 3:
+        raise InputError(f"triangles have shape {faces.shape}; (m, 3) is needed")
+    wrong = np.flatnonzero(((faces < 0) | (faces >= n_points)).any(axis=1))
+    if len(wrong):
+        raise InputError(f"triangles {name_some(wrong)} name points that are not there; indices run from 0 to {n_points - 1}")
+    doubled = np.flatnonzero((faces == np.roll(faces, 1, axis=1)).any(axis=1))
+    if len(doubled):
+        raise InputError(f"triangles {name_some(doubled)} name a point twice; remove them")
+    return faces.astype(np.int64)
+
+
+def _is_same_cycle(loops: list[Loop], asked: Loop) -> bool:
+    if len(loops) != 1 or len(loops[0]) != len(asked):
+        return False
+    at = np.flatnonzero(loops[0] == asked[0])
+    if len(at) == 0:
+        return False
+    turned = np.roll(loops[0], -at[0])
+    return bool(np.array_equal(turned, asked) or np.array_equal(turned[1:], asked[:0:-1]))

@@ -1,0 +1,11 @@
+"""PLY in and out.
+
+Our own reader and writer: trimesh refuses trailing bytes, list properties of vertices, mixed polygons and a comment
+before the format, reads a truncated or negative count without a word, and writes single precision without the
+properties that it does not know.
+"""
+
+from pointchart.io.ply.read import read_ply
+from pointchart.io.ply.write import write_ply
+
+__all__ = ["read_ply", "write_ply"]

@@ -1,0 +1,96 @@
+"""What a scan file holds, and how the readers put it together."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pointchart.errors import FormatError
+from pointchart.io.source import AnyPath
+from pointchart.typing import Attributes, Indices, Points, Triangles
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Scan:
+    """The content of a scan file, in the order of the file.
+
+    Parameters
+    ----------
+    points
+        (n, 3) float64, in the unit of the file; not-a-number is passed on.
+    triangles
+        (m, 3) int64 point indices; (0, 3) when the file has no faces.
+    attributes
+        Everything else that the file carries for each point, by name, each (n,) with the dtype of the file.
+    """
+
+    points: Points
+    triangles: Triangles
+    attributes: Attributes
+
+
+def scan_from_columns(
+    path: AnyPath,
+    columns: Mapping[str, NDArray[Any]],
+    triangles: Triangles | None = None,
+    extra: Attributes | None = None,
+) -> Scan:
+    """Make a scan of the named columns of a file: x, y, z are the points, the others are attributes."""
+    missing = [axis for axis in "xyz" if axis not in columns]
+    if missing:
+        raise FormatError(
+            f"{path}: the coordinate {', '.join(missing)} is missing among the {len(columns)} columns "
+            f"({', '.join(columns) or 'none'}); name the columns x, y and z"
+        )
+    points = np.stack([columns[axis] for axis in "xyz"], axis=1).astype(np.float64, copy=False)
+    attributes = {name: _own(column) for name, column in columns.items() if name not in ("x", "y", "z")}
+    return Scan(points, np.empty((0, 3), np.int64) if triangles is None else triangles, attributes | (extra or {}))
+
+
+def fan_triangles(
+    path: AnyPath, polygons: Sequence[tuple[Indices, Indices]], n_points: int, *, first: int = 0
+) -> Triangles:
+    """Cut each polygon into triangles that share its first corner.
+
+    Parameters
+    ----------
+    path
+        The file, for messages.
+    polygons
+        Groups of polygons with equally many corners: (m,) place of each in the file, and (m, corners) point indices.
+        Those of fewer than three corners are dropped.
+    n_points
+        Number of points in the file.
+    first
+        Index of the file's first point and face, for messages.
+
+    Returns
+    -------
+    (m, 3) int64 in the order of the file.
+
+    Examples
+    --------
+    >>> fan_triangles("a.off", [(np.array([0]), np.array([[4, 5, 6, 7]]))], 8)
+    array([[4, 5, 6],
+           [4, 6, 7]])
+    """
+    owners, triangles = [np.empty(0, np.int64)], [np.empty((0, 3), np.int64)]
+    for places, corners in polygons:
+        bad = np.argwhere((corners < 0) | (corners >= n_points))
+        if len(bad):
+            row, column = bad[0]
+            raise FormatError(
+                f"{path}: face {places[row] + first} refers to vertex {corners[row, column] + first}, but there are "
+                f"{n_points}, numbered from {first}; the file is damaged, so export it again"
+            )
+        for k in range(1, corners.shape[1] - 1):
+            owners.append(places)
+            triangles.append(corners[:, [0, k, k + 1]].astype(np.int64, copy=False))
+    in_file_order = np.argsort(np.concatenate(owners), kind="stable")
+    return np.concatenate(triangles)[in_file_order]
+
+
+def _own(column: NDArray[Any]) -> NDArray[Any]:
+    return np.array(column, dtype=column.dtype.newbyteorder("="))

@@ -1,0 +1,117 @@
+"""Links of a surface: the stars of all points joined to one symmetric graph, each link with its trust."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.sparse as sp
+
+from ._kernels.links import agreement, within_two_edges
+from ._parallel import over_ranges
+from .errors import InputError
+from .mesh import one_rings
+from .neighbors import Neighborhoods
+from .typing import Floats, Mask, Points, Triangles, Weights
+from .weights import WeightScheme, normalize, reciprocal_distance
+
+LONE_TRUST = 0.01  # a link that only one star sees: never 0, since the graph must stay connected
+FAR_TRUST = 0.001  # a link that the mesh contradicts
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Links:
+    """A symmetric graph with a trust for each link.
+
+    Attributes
+    ----------
+    neighborhoods : Neighborhoods
+        Unordered; j is a neighbour of i if and only if i is one of j (condition 4.5).
+    trust : (nnz,) float64
+        In (0, 1], the same both ways.
+    """
+
+    neighborhoods: Neighborhoods
+    trust: Floats
+
+
+def link_stars(star: Neighborhoods) -> Links:
+    """Join Delaunay stars to one symmetric graph, trusting links by the agreement of neighbouring stars.
+
+    A link has full trust when it is an edge of a triangle that at least two of its corners' stars hold. The others, mostly
+    across to a close second sheet, keep a hundredth.
+
+    Parameters
+    ----------
+    star : Neighborhoods
+        Ordered.
+
+    Returns
+    -------
+    Links
+
+    Examples
+    --------
+    >>> from pointchart.neighbors import delaunay_star, nearest
+    >>> plus = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0]]
+    >>> links = link_stars(delaunay_star(plus, nearest(plus, 4)))
+    >>> links.neighborhoods.sizes, links.trust.min()
+    (array([4, 3, 3, 3, 3]), np.float64(1.0))
+    """
+    if star.is_open is None:
+        raise InputError("only ordered neighbourhoods can agree on triangles; use Delaunay stars")
+    agrees = np.zeros(len(star.indices), np.bool_)
+    over_ranges(
+        lambda first, last: agreement(star.indptr, star.indices, star.is_open, first, last, agrees), star.n_points
+    )
+    trust = np.where(agrees, 1.0, LONE_TRUST)
+    graph = sp.csr_array((trust, star.indices, star.indptr), shape=(star.n_points, star.n_points))
+    both = graph.maximum(graph.T.tocsr()).tocsr()
+    neighborhoods = Neighborhoods(both.indptr.astype(np.int64), both.indices.astype(np.int64))
+    return Links(neighborhoods, both.data)
+
+
+def distrust_far(links: Links, triangles: Triangles) -> Links:
+    """Take the trust from links whose ends are more than two edges apart on a mesh.
+
+    Parameters
+    ----------
+    links : Links
+    triangles : (m, 3) int array
+        A mesh found with these links.
+
+    Returns
+    -------
+    Links
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> pair = Links(Neighborhoods(np.array([0, 1, 1, 1, 1, 2]), np.array([4, 0])), np.ones(2))
+    >>> strip = np.array([[0, 1, 2], [2, 1, 3], [2, 3, 4]])
+    >>> distrust_far(pair, strip).trust
+    array([1., 1.])
+    """
+    near = is_near(links, triangles)
+    return Links(links.neighborhoods, np.where(near, links.trust, FAR_TRUST * links.trust))
+
+
+def is_near(links: Links, triangles: Triangles) -> Mask:
+    """Tell for each link whether its ends are at most two edges apart on a mesh, (nnz,)."""
+    graph = links.neighborhoods
+    rings = one_rings(triangles, graph.n_points)
+    near = np.empty(len(graph.indices), np.bool_)
+    over_ranges(
+        lambda first, last: within_two_edges(
+            graph.indptr, graph.indices, rings.indptr, rings.indices, first, last, near
+        ),
+        graph.n_points,
+    )
+    return near
+
+
+def trusted(links: Links, scheme: WeightScheme = reciprocal_distance) -> WeightScheme:
+    """Multiply a weight scheme by the trust of links, for use on their neighbourhoods."""
+
+    def weights(points: Points, neighborhoods: Neighborhoods) -> Weights:
+        return normalize(links.trust * scheme(points, neighborhoods), neighborhoods)
+
+    return weights

@@ -1,0 +1,266 @@
+"""Neighbourhoods of points: balls, the nearest, and Delaunay stars (paper, section 4)."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.spatial import cKDTree
+
+from ._check import check_points, name_some
+from ._kernels.planes import fit_normals
+from ._kernels.stars import delaunay_stars as stars_kernel
+from ._parallel import over_ranges
+from .errors import InputError
+from .typing import Floats, Indices, Mask, Points, Triangles
+
+STEEPEST = 0.8  # sine of the steepest neighbour against the tangent plane; steeper ones lie on another sheet
+PLANE_NEIGHBORS = 16
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Neighborhoods:
+    """The neighbours of every point, row by row (compressed sparse rows).
+
+    Attributes
+    ----------
+    indptr : (n + 1,) int64
+        Point i has the neighbours ``indices[indptr[i]:indptr[i + 1]]``.
+    indices : (nnz,) int64
+        Neighbours; never the point itself, none twice in a row.
+    local : (nnz, 2) float64 or None
+        Positions of the neighbours in the tangent plane of their centre, if they are ordered: anticlockwise.
+    is_open : (n,) bool or None
+        For ordered neighbours: whether the star has a gap of at least pi, as it has on the boundary. The gap then lies
+        between the last neighbour and the first.
+    """
+
+    indptr: Indices
+    indices: Indices
+    local: Floats | None = None
+    is_open: Mask | None = None
+
+    @property
+    def n_points(self) -> int:
+        """Number of points."""
+        return len(self.indptr) - 1
+
+    @property
+    def sizes(self) -> Indices:
+        """Number of neighbours of each point, (n,)."""
+        return np.diff(self.indptr)
+
+    @property
+    def rows(self) -> Indices:
+        """The centre of every neighbour, (nnz,)."""
+        return np.repeat(np.arange(self.n_points), self.sizes)
+
+
+def from_pairs(rows: Indices, columns: Indices, n_points: int) -> Neighborhoods:
+    """Gather (centre, neighbour) pairs, sorted by centre, into neighbourhoods."""
+    indptr = np.zeros(n_points + 1, np.int64)
+    np.cumsum(np.bincount(rows, minlength=n_points), out=indptr[1:])
+    return Neighborhoods(indptr, np.ascontiguousarray(columns, dtype=np.int64))
+
+
+def ball(points: ArrayLike, radius: float | Floats) -> Neighborhoods:
+    r"""Find all points in the open ball around each point.
+
+    .. math:: N_i = \{j : 0 < \|x_j - x_i\| < r_i\}
+
+    A constant radius suits even sampling; give one radius a point, such as a multiple of `spacing`, where it is uneven.
+
+    Parameters
+    ----------
+    points : (n, 3) array
+    radius : float or (n,) array
+        In the unit of the points.
+
+    Returns
+    -------
+    Neighborhoods
+        Nearest first.
+
+    Raises
+    ------
+    InputError
+        If a radius is not positive or leaves a point without neighbours.
+
+    References
+    ----------
+    Floater and Reimers 2001, section 4, equation (4.1).
+
+    Examples
+    --------
+    >>> line = [[0, 0, 0], [1, 0, 0], [2, 0, 0], [2, 1, 0]]
+    >>> ball(line, 1.5).sizes
+    array([1, 3, 2, 2])
+    """
+    cloud = check_points(points)
+    radii = np.broadcast_to(np.asarray(radius, dtype=np.float64), len(cloud))
+    if not np.all(radii > 0.0):
+        raise InputError(f"the radius is {radii.min():g}; it has to be positive, some 2 to 4 times the spacing of the points")
+    tree = cKDTree(cloud)
+    counts = np.asarray(tree.query_ball_point(cloud, radii, return_length=True, workers=-1))
+    rows, columns = [], []
+    order = np.argsort(counts, kind="stable")
+    # Blocks of like counts: each asks the tree for as many neighbours as its fullest ball holds.
+    for block in np.array_split(order, max(1, len(cloud) // 16384)):
+        distance, found = tree.query(cloud[block], k=np.arange(1, counts[block].max() + 1), workers=-1)
+        inside = (distance > 0.0) & (distance < radii[block, None])
+        rows.append(np.repeat(block, inside.sum(axis=1)))
+        columns.append(found[inside])
+    row, column = np.concatenate(rows), np.concatenate(columns)
+    by_row = np.argsort(row, kind="stable")
+    result = from_pairs(row[by_row], column[by_row], len(cloud))
+    lonely = np.flatnonzero(result.sizes == 0)
+    if len(lonely):
+        raise InputError(
+            f"the radius leaves points {name_some(lonely)} without any neighbour; "
+            f"the loneliest has its nearest at {spacing(cloud, 1).max():.4g}: use a larger radius, or the nearest k"
+        )
+    return result
+
+
+def nearest(points: ArrayLike, k: int = 20) -> Neighborhoods:
+    """Find the `k` nearest other points of each point (all others, if there are fewer).
+
+    Parameters
+    ----------
+    points : (n, 3) array
+        Distinct points.
+    k : int
+        Number of neighbours; 8 to 30.
+
+    Returns
+    -------
+    Neighborhoods
+        Nearest first.
+
+    References
+    ----------
+    Floater and Reimers 2001, section 4, below Figure 1.
+
+    Examples
+    --------
+    >>> nearest([[0, 0, 0], [1, 0, 0], [3, 0, 0], [3, 1, 0]], k=1).indices
+    array([1, 0, 3, 2])
+    """
+    cloud = check_points(points)
+    if k < 1:
+        raise InputError(f"k is {k}; every point needs at least one neighbour, and 8 to 30 work well")
+    n, k = len(cloud), min(k, len(cloud) - 1)
+    found = cKDTree(cloud).query(cloud, k=k + 1, workers=-1)[1]
+    return Neighborhoods(np.arange(0, n * k + 1, k), _without_self(found).ravel())
+
+
+def _without_self(found: Indices) -> Indices:
+    """Drop each point from its own row of nearest points, or the farthest where rounding has pushed it out."""
+    own = found == np.arange(len(found))[:, None]
+    own[~own.any(axis=1), -1] = True
+    return found[~own].reshape(len(found), -1)
+
+
+def spacing(points: ArrayLike, k: int = 6) -> Floats:
+    """Measure the local spacing: the median distance to the `k` nearest points.
+
+    Parameters
+    ----------
+    points : (n, 3) array
+    k : int
+
+    Returns
+    -------
+    (n,) float64 array, in the unit of the points.
+
+    Examples
+    --------
+    >>> spacing([[0, 0, 0], [1, 0, 0], [0, 2, 0], [1, 2, 0]], k=1)
+    array([1., 1., 1., 1.])
+    """
+    cloud = check_points(points)
+    distance = cKDTree(cloud).query(cloud, k=np.arange(2, min(k + 1, len(cloud)) + 1), workers=-1)[0]
+    return np.asarray(np.median(distance, axis=1))
+
+
+def normals(points: ArrayLike, around: Neighborhoods) -> Floats:
+    """Fit the least-squares plane through each point and its neighbours.
+
+    Parameters
+    ----------
+    points : (n, 3) array
+    around : Neighborhoods
+        The points that each plane is fitted to, besides its own.
+
+    Returns
+    -------
+    (n, 3) float64 array of unit normals, of either sign.
+
+    Examples
+    --------
+    >>> corners = [[0, 0, 7], [1, 0, 7], [0, 1, 7], [1, 1, 7]]
+    >>> abs(normals(corners, nearest(corners, 3)))[0]
+    array([0., 0., 1.])
+    """
+    cloud = check_points(points)
+    result = np.empty_like(cloud)
+    over_ranges(
+        lambda first, last: fit_normals(cloud, around.indptr, around.indices, first, last, result), len(cloud)
+    )
+    return result
+
+
+def delaunay_star(points: ArrayLike, around: Neighborhoods, *, planes: Neighborhoods | None = None) -> Neighborhoods:
+    """Find the Delaunay neighbours of each point in its tangent plane: the neighbourhood of the paper's method 3.
+
+    The candidates are projected to the least-squares plane, where the neighbours of the centre in their Delaunay
+    triangulation are found by inversion, without a triangulation. Candidates steeper than 53 degrees against the plane
+    are left out: they lie on another sheet.
+
+    Parameters
+    ----------
+    points : (n, 3) array
+        Distinct points.
+    around : Neighborhoods
+        The candidates: a large ball (the paper) or about 20 nearest.
+    planes : Neighborhoods, optional
+        What the planes are fitted to; the candidates, if not given.
+
+    Returns
+    -------
+    Neighborhoods
+        Ordered anticlockwise about the normal, with `local` and `is_open`. Normals have either sign.
+
+    References
+    ----------
+    Floater and Reimers 2001, section 4, equation (4.4).
+
+    Examples
+    --------
+    >>> plus = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0], [3, 0, 0]]
+    >>> star = delaunay_star(plus, nearest(plus, 5))
+    >>> sorted(star.indices[: star.indptr[1]].tolist()), star.is_open[:2].tolist()
+    ([1, 2, 3, 4], [False, False])
+    """
+    cloud = check_points(points)
+    return _compact(around, *_stars(cloud, normals(cloud, planes or around), around)[:4])
+
+
+def _stars(
+    cloud: Points, normal: Floats, around: Neighborhoods
+) -> tuple[Indices, Floats, Indices, Mask, Floats]:
+    star, local = np.empty_like(around.indices), np.empty((len(around.indices), 2))
+    count, is_open = np.empty(len(cloud), np.int64), np.empty(len(cloud), np.bool_)
+    diameter = np.empty(len(cloud))
+    over_ranges(
+        lambda first, last: stars_kernel(
+            cloud, normal, around.indptr, around.indices, STEEPEST, first, last, star, local, count, is_open, diameter
+        ),
+        len(cloud),
+    )
+    return star, local, count, is_open, diameter
+
+
+def _compact(around: Neighborhoods, star: Indices, local: Floats, count: Indices, is_open: Mask) -> Neighborhoods:
+    """Close the places that candidates left free."""
+    taken = np.arange(len(star)) - np.repeat(around.indptr[:-1], around.sizes) < np.repeat(count, around.sizes)
+    return Neighborhoods(np.concatenate([[0], np.cumsum(count)]), star[taken], local[taken], is_open)

@@ -1,0 +1,73 @@
+"""Before the first stage: duplicates merged, units and offsets removed, points in spatial order."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ._check import check_points
+from .morton import morton_order
+from .typing import Indices, Points
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Cloud:
+    """A scan made ready: distinct points in spatial order, in a box of size 1 about the origin.
+
+    Attributes
+    ----------
+    points : (n, 3) float64
+        Dimensionless.
+    rows : (n,) int64
+        The row of the scan that each point was read from: the first one, where rows repeat a point.
+    n_repeated : int
+        Rows that repeat an earlier one exactly.
+    """
+
+    points: Points
+    rows: Indices
+    n_repeated: int
+
+
+def prepare(points: ArrayLike) -> Cloud:
+    """Merge repeated points, centre and scale, and sort along a Morton curve.
+
+    The scale is a power of two and the centre a point of the scan, so that coordinates keep their digits and scans that
+    differ by such a scale give identical results.
+
+    Parameters
+    ----------
+    points : (n, 3) array
+        In any unit and at any offset.
+
+    Returns
+    -------
+    Cloud
+
+    Raises
+    ------
+    InputError
+        If there are fewer than 4 distinct points, or they are not finite, or lie on one line.
+
+    Examples
+    --------
+    >>> cloud = prepare([[8, 8, 0], [0, 0, 0], [8, 8, 0], [8, 0, 0], [0, 8, 0]])
+    >>> cloud.rows, cloud.n_repeated
+    (array([1, 3, 4, 0]), 1)
+    """
+    scan = check_points(points)
+    first = _first_rows(scan)
+    distinct = check_points(scan[first])
+    middle = (distinct.min(axis=0) + distinct.max(axis=0)) / 2.0
+    centred = distinct - distinct[np.argmin(np.abs(distinct - middle).max(axis=1))]
+    unit = np.ldexp(centred, -int(np.ceil(np.log2(np.abs(centred).max()))))
+    order = morton_order(unit)
+    return Cloud(np.ascontiguousarray(unit[order]), first[order], len(scan) - len(first))
+
+
+def _first_rows(points: Points) -> Indices:
+    """List the first row of each distinct point, ascending."""
+    order = np.lexsort(points.T)
+    is_new = np.append(True, (points[order[1:]] != points[order[:-1]]).any(axis=1))
+    # lexsort is stable: the first of each run of equal points is the earliest row.
+    return np.asarray(np.sort(order[is_new]))

@@ -1,0 +1,136 @@
+"""Measures of meshes and maps, one function each."""
+
+import numpy as np
+
+from .mesh import half_edges
+from .typing import UV, Floats, Indices, Points, Triangles
+
+
+def edge_lengths(points: Points, triangles: Triangles) -> tuple[Indices, Floats]:
+    """List every edge once with its length.
+
+    Returns
+    -------
+    ends : (e, 2) int64 array
+    lengths : (e,) float64 array, in the unit of the points.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> edge_lengths(np.array([[0.0, 0, 0], [3, 0, 0], [3, 4, 0]]), np.array([[0, 1, 2]]))[1]
+    array([3., 4., 5.])
+    """
+    edges = half_edges(triangles, len(points))
+    kept = edges.twins < np.arange(len(edges.twins))
+    ends = np.column_stack([edges.origins[kept], edges.targets[kept]])
+    return ends, np.asarray(np.linalg.norm(points[ends[:, 0]] - points[ends[:, 1]], axis=1))
+
+
+def area_vectors(points: Points, triangles: Triangles) -> Floats:
+    """Return the vector of each triangle that is normal to it and as long as its area, (m, 3).
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> area_vectors(np.array([[0.0, 0, 0], [2, 0, 0], [0, 1, 0]]), np.array([[0, 1, 2]]))
+    array([[0., 0., 1.]])
+    """
+    a, b, c = points[triangles[:, 0]], points[triangles[:, 1]], points[triangles[:, 2]]
+    return np.asarray(0.5 * np.cross(b - a, c - a))
+
+
+def dihedral_angles(points: Points, triangles: Triangles) -> Floats:
+    """Measure by how much the surface turns at each inner edge: 0 where it is flat, pi where it folds back, in radians.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> corner = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, -1]])
+    >>> np.rad2deg(dihedral_angles(corner, np.array([[0, 1, 2], [1, 0, 3]]))).round(6)
+    array([90.])
+    """
+    edges = half_edges(triangles, len(points))
+    inner = np.flatnonzero(edges.twins > np.arange(len(edges.twins)))
+    vectors = area_vectors(points, triangles)
+    one, other = vectors[inner // 3], vectors[edges.twins[inner] // 3]
+    return np.asarray(np.arctan2(np.linalg.norm(np.cross(one, other), axis=1), np.einsum("ij,ij->i", one, other)))
+
+
+def radius_ratios(points: Points, triangles: Triangles) -> Floats:
+    """Measure the shape of each triangle: twice the inradius over the circumradius, 1 if equilateral, 0 if flat.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> radius_ratios(np.array([[0.0, 0, 0], [1, 0, 0], [0.5, 0.75**0.5, 0]]), np.array([[0, 1, 2]])).round(12)
+    array([1.])
+    """
+    corner = points[triangles]
+    a, b, c = (np.linalg.norm(corner[:, (k + 1) % 3] - corner[:, (k + 2) % 3], axis=1) for k in range(3))
+    product = a * b * c
+    # Twice the inradius over the circumradius is (b + c - a)(c + a - b)(a + b - c) / (a b c).
+    return np.asarray((b + c - a) * (c + a - b) * (a + b - c) / np.where(product > 0.0, product, 1.0))
+
+
+def stretches(points: Points, triangles: Triangles, uv: UV) -> tuple[Floats, Floats]:
+    """Measure the largest and smallest stretch of the map from the plane to space, triangle by triangle.
+
+    Parameters are scaled so that plane and surface have the same area; 1 means no stretch.
+
+    Returns
+    -------
+    largest, smallest : (m,) float64 arrays, dimensionless: singular values of the map's derivative.
+
+    References
+    ----------
+    Sander, Snyder, Gortler and Hoppe 2001, Texture mapping progressive meshes, section 3.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> flat = np.array([[0.0, 0, 0], [2, 0, 0], [0, 2, 0]])
+    >>> [s.round(12) for s in stretches(flat, np.array([[0, 1, 2]]), flat[:, :2] / 8)]
+    [array([1.]), array([1.])]
+    """
+    p, q = points[triangles], uv[triangles]
+    e1, e2, f1, f2 = p[:, 1] - p[:, 0], p[:, 2] - p[:, 0], q[:, 1] - q[:, 0], q[:, 2] - q[:, 0]
+    determinant = f1[:, 0] * f2[:, 1] - f1[:, 1] * f2[:, 0]
+    area = np.linalg.norm(area_vectors(points, triangles), axis=1).sum()
+    scale = np.sqrt(0.5 * np.abs(determinant).sum() / area)
+    safe = np.where(determinant != 0.0, determinant, np.nan)
+    ds = scale * (f2[:, 1:] * e1 - f1[:, 1:] * e2) / safe[:, None]
+    dt = scale * (f1[:, :1] * e2 - f2[:, :1] * e1) / safe[:, None]
+    a, b, c = (np.einsum("ij,ij->i", x, y) for x, y in ((ds, ds), (ds, dt), (dt, dt)))
+    root = np.sqrt((a - c) ** 2 + 4.0 * b * b)
+    return np.sqrt(0.5 * (a + c + root)), np.sqrt(np.maximum(0.5 * (a + c - root), 0.0))
+
+
+def l2_stretch(points: Points, triangles: Triangles, uv: UV) -> float:
+    """Return the root of the area-weighted mean square stretch; 1 for an isometry, infinite for a flat triangle.
+
+    References
+    ----------
+    Sander, Snyder, Gortler and Hoppe 2001, section 3.
+    """
+    largest, smallest = stretches(points, triangles, uv)
+    area = np.linalg.norm(area_vectors(points, triangles), axis=1)
+    mean = np.sum(area * 0.5 * (largest**2 + smallest**2)) / area.sum()
+    return float(np.sqrt(mean)) if np.isfinite(mean) else float("inf")
+
+
+def least_distance(uv: UV) -> float:
+    """Return the least distance between two parameter points.
+
+    References
+    ----------
+    Floater and Reimers 2001, section 5.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> least_distance(np.array([[0.0, 0.0], [3.0, 0.0], [3.0, 1.0]]))
+    1.0
+    """
+    from scipy.spatial import cKDTree
+
+    return float(cKDTree(uv).query(uv, k=2, workers=-1)[0][:, 1].min())

@@ -1,0 +1,32 @@
+"""Simulated scans and surfaces with exactly known answers, for tests, benchmarks and the demo."""
+
+from pointchart.shapes.caps import hemisphere, tube
+from pointchart.shapes.discs import bent_sheet, disc, fold, grid, relief
+from pointchart.shapes.perturb import add_noise, shuffle, thin
+from pointchart.shapes.scan import Surface, demo_scan, laser_scan, sculpture
+from pointchart.shapes.sculpted_face import sculpted_face
+from pointchart.shapes.shape import Shape
+from pointchart.shapes.topologies import annulus, moebius, sphere, torus
+
+__all__ = [
+    "Shape",
+    "Surface",
+    "add_noise",
+    "annulus",
+    "bent_sheet",
+    "demo_scan",
+    "disc",
+    "fold",
+    "grid",
+    "hemisphere",
+    "laser_scan",
+    "moebius",
+    "relief",
+    "sculpted_face",
+    "sculpture",
+    "shuffle",
+    "sphere",
+    "thin",
+    "torus",
+    "tube",
+]

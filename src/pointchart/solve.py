@@ -1,0 +1,232 @@
+"""Sparse linear systems with fixed unknowns: u_i = sum_j lambda_ij u_j. Knows no geometry."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, TypeAlias
+
+import numpy as np
+import scipy.sparse as sp
+import scipy.sparse.linalg as sla
+
+from ._kernels.graphs import symmetrizer
+from .errors import SolveError
+from .typing import Floats, Indices
+
+TOLERANCE = 1e-12
+MOST_ITERATIONS = 20_000
+DIRECT_LIMIT = 1_000_000
+
+Solved: TypeAlias = tuple[Floats, tuple[int, ...]]
+Solver: TypeAlias = Callable[[sp.csr_array, Floats], Solved]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Solution:
+    """What solved a system, and how well.
+
+    Attributes
+    ----------
+    values : (n, d) float64
+        All unknowns, the fixed ones as given.
+    residual : float
+        Largest of ``|b - A u| / |b|`` over the d right sides, 2-norms.
+    iterations : tuple of int
+        Of each right side; empty for a direct solver.
+    method : str
+        Name of the solver.
+    unknowns, nonzeros : int
+        Size of the system.
+    """
+
+    values: Floats
+    residual: float
+    iterations: tuple[int, ...]
+    method: str
+    unknowns: int
+    nonzeros: int
+
+
+def solve_fixed(matrix: sp.csr_array, fixed: Indices, values: Floats, *, solver: Solver | None = None) -> Solution:
+    r"""Solve :math:`u = \Lambda u` for the unknowns that are not fixed.
+
+    Parameters
+    ----------
+    matrix : (n, n) sparse array
+        Convex combinations: rows non-negative with sum one, zero diagonal. Rows of fixed unknowns are not used.
+    fixed : (b,) int array
+        Unknowns that are given.
+    values : (b, d) array
+        Their values, one column a right side.
+    solver : callable, optional
+        ``solver(A, b) -> (x, iterations)``: `direct`, `multigrid`, `bicgstab`, `conjugate_gradient`, `cholesky` or one
+        of your own; chosen by size, if not given.
+
+    Returns
+    -------
+    Solution
+
+    Raises
+    ------
+    SolveError
+        If the solver breaks down or misses its tolerance.
+
+    References
+    ----------
+    Floater and Reimers 2001, section 2, equations (2.1) and (2.2).
+
+    Examples
+    --------
+    >>> import scipy.sparse as sp
+    >>> halves = sp.csr_array([[0, 0, 0], [0.5, 0, 0.5], [0, 0, 0]])
+    >>> solve_fixed(halves, [0, 2], [[0.0], [4.0]]).values.ravel()
+    array([0., 2., 4.])
+    """
+    fixed, given = np.asarray(fixed), np.asarray(values, dtype=np.float64)
+    is_free = np.ones(matrix.shape[0], dtype=bool)
+    is_free[fixed] = False
+    free = np.flatnonzero(is_free)
+    full = np.zeros((matrix.shape[0], given.shape[1]))
+    full[fixed] = given
+    if len(free) == 0:
+        return Solution(full, 0.0, (), "none", 0, 0)
+    rows = matrix[free]
+    right = rows @ full
+    left = sp.csr_array(sp.eye_array(len(free), format="csr") - rows[:, free])
+    chosen = solver or (direct if len(free) <= DIRECT_LIMIT else multigrid)
+    solution, iterations = chosen(left, right)
+    size = np.linalg.norm(right, axis=0)
+    residual = float(np.max(np.linalg.norm(right - left @ solution, axis=0) / np.where(size > 0.0, size, 1.0)))
+    if not np.isfinite(residual):
+        raise SolveError(f"{chosen.__name__} gave no finite solution of {len(free)} unknowns; try another solver")
+    full[free] = solution
+    return Solution(full, residual, iterations, chosen.__name__, len(free), left.nnz)
+
+
+def direct(left: sp.csr_array, right: Floats) -> Solved:
+    """Solve by LU without pivoting, ordered by nested dissection, with one step of iterative refinement.
+
+    The matrix is a diagonally dominant M-matrix, which needs no pivoting.
+    """
+    factors, order = _factorize(left)
+    solution = np.empty_like(right)
+    solution[order] = factors.solve(right[order])
+    solution[order] += factors.solve((right - left @ solution)[order])
+    return solution, ()
+
+
+def cholesky(left: sp.csr_array, right: Floats) -> Solved:
+    """Solve the symmetric case (4.5) by factors L D L^T of the row-scaled matrix; positive pivots prove it definite."""
+    symmetric, scale = symmetrize(left)
+    factors, order = _factorize(symmetric)
+    if not np.all(factors.U.diagonal() > 0.0):
+        raise SolveError("the scaled matrix is not positive definite; use the direct solver")
+    solution = np.empty_like(right)
+    solution[order] = factors.solve((scale[:, None] * right)[order])
+    return solution, ()
+
+
+def bicgstab(left: sp.csr_array, right: Floats, *, tolerance: float = TOLERANCE, start: Floats | None = None) -> Solved:
+    """Solve by plain Bi-CGSTAB, each right side on its own, as the paper does."""
+    return _krylov(sla.bicgstab, left, right, tolerance, None, start)
+
+
+def multigrid(
+    left: sp.csr_array, right: Floats, *, tolerance: float = TOLERANCE, start: Floats | None = None
+) -> Solved:
+    """Solve by Bi-CGSTAB preconditioned with Ruge-Stueben algebraic multigrid: linear in time and memory."""
+    import pyamg
+
+    levels = pyamg.ruge_stuben_solver(sp.csr_matrix(left), max_coarse=500)
+    return _krylov(sla.bicgstab, left, right, tolerance, levels.aspreconditioner(), start)
+
+
+def conjugate_gradient(left: sp.csr_array, right: Floats, *, tolerance: float = TOLERANCE) -> Solved:
+    """Solve the symmetric case (4.5) by conjugate gradients on the row-scaled matrix."""
+    symmetric, scale = symmetrize(left)
+    diagonal = symmetric.diagonal()
+    jacobi = sla.LinearOperator(symmetric.shape, matvec=lambda x: x / diagonal, dtype=np.float64)
+    return _krylov(sla.cg, symmetric, scale[:, None] * right, tolerance, jacobi, None)
+
+
+def symmetrize(left: sp.csr_array) -> tuple[sp.csr_array, Floats]:
+    """Scale the rows of a matrix so that it becomes symmetric, as condition (4.5) allows.
+
+    Raises
+    ------
+    SolveError
+        If no scaling does: some neighbour is not one in return, or the weights of a pair do not come from one number.
+
+    Examples
+    --------
+    >>> import scipy.sparse as sp
+    >>> symmetrize(sp.csr_array([[1, -0.5], [-0.25, 1]]))[0].toarray()
+    array([[ 1. , -0.5],
+           [-0.5,  2. ]])
+    """
+    n = left.shape[0]
+    scale = np.zeros(n)
+    for seed in _component_seeds(left):
+        order, parent = sp.csgraph.breadth_first_order(left, seed, directed=False)
+        odd = symmetrizer(order, parent, left.indptr, left.indices, left.data, scale)
+        if odd >= 0:
+            raise SolveError(f"unknowns {odd} and {parent[odd]} are not neighbours of each other, so the matrix has no "
+                             "symmetric form (4.5); use balls of constant radius or another solver")
+    symmetric = sp.csr_array(sp.diags_array(scale) @ left)
+    skew = abs(symmetric - symmetric.T).max()
+    if skew > 1e-9 * abs(symmetric).max():
+        raise SolveError(f"the weights have no symmetric form (4.5): pairs differ by up to {skew:.2g}; use another solver")
+    return symmetric, scale
+
+
+def _component_seeds(left: sp.csr_array) -> Indices:
+    labels = sp.csgraph.connected_components(left, directed=False)[1]
+    return np.asarray(np.unique(labels, return_index=True)[1])
+
+
+def _factorize(left: sp.csr_array) -> tuple[Any, Indices]:
+    import pymetis
+
+    n = left.shape[0]
+    pattern = sp.csr_array(left, copy=True)
+    pattern.setdiag(0.0)
+    pattern = abs(pattern) + abs(pattern.T)
+    pattern.eliminate_zeros()
+    if n > 100:
+        order = np.asarray(pymetis.nested_dissection(pymetis.CSRAdjacency(pattern.indptr, pattern.indices))[0])
+    else:
+        order = np.arange(n)
+    ordered = sp.csc_matrix(left[order][:, order])
+    try:
+        factors = sla.splu(ordered, permc_spec="NATURAL", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
+    except RuntimeError as failure:
+        raise SolveError(f"the factorization of {n} unknowns failed ({failure}); use a larger neighbourhood") from failure
+    return factors, order
+
+
+def _krylov(
+    method: Callable[..., tuple[Floats, int]],
+    left: sp.csr_array,
+    right: Floats,
+    tolerance: float,
+    preconditioner: Any,
+    start: Floats | None,
+) -> Solved:
+    columns, counts = [], []
+    for k in range(right.shape[1]):
+        steps: list[None] = []
+        column, flag = method(
+            left,
+            right[:, k],
+            x0=None if start is None else start[:, k],
+            rtol=tolerance,
+            atol=0.0,
+            maxiter=MOST_ITERATIONS,
+            M=preconditioner,
+            callback=lambda _, steps=steps: steps.append(None),
+        )
+        if flag != 0:
+            raise SolveError(f"{method.__name__} did not reach a relative residual of {tolerance:g} in "
+                             f"{len(steps)} iterations ({len(right)} unknowns); use the direct solver")
+        columns.append(column)
+        counts.append(len(steps))
+    return np.column_stack(columns), tuple(counts)

@@ -1,0 +1,96 @@
+"""Exact Delaunay triangulation of the parameter points, held inside the boundary loop."""
+
+import numpy as np
+import startinpy
+from numpy.typing import ArrayLike
+
+from ._check import check_loop, name_some
+from ._kernels.peel import peel
+from .errors import InputError, SolveError
+from .mesh import half_edges
+from .morton import morton_order
+from .typing import UV, Indices, Loop, Triangles
+
+
+def triangulate(uv: ArrayLike, loop: ArrayLike) -> Triangles:
+    """Triangulate all parameter points by Delaunay's criterion, with the boundary loop as the boundary.
+
+    Predicates are exact, so points as close as 1e-14 are kept apart. Boundary points that were rounded to doubles are not
+    exactly in convex position: triangles of the hull that lie outside the loop are peeled off.
+
+    Parameters
+    ----------
+    uv : (n, 2) array
+        Distinct parameter points.
+    loop : (b,) int array
+        Boundary points, anticlockwise in uv.
+
+    Returns
+    -------
+    (m, 3) int64 array of anticlockwise triangles; m = 2 n - 2 - b.
+
+    Raises
+    ------
+    SolveError
+        If parameter points coincide, or some interior point lies on or outside the loop.
+
+    References
+    ----------
+    Floater and Reimers 2001, section 2.
+
+    Examples
+    --------
+    >>> triangulate([[0, 0], [3, 0], [0, 3], [1, 1]], [0, 1, 2]).shape
+    (3, 3)
+    """
+    plane = np.ascontiguousarray(uv, dtype=np.float64)
+    if plane.ndim != 2 or plane.shape[1] != 2 or not np.isfinite(plane).all():
+        raise InputError(f"uv has shape {plane.shape}; a finite (n, 2) array is needed")
+    rim = check_loop(loop, len(plane))
+    triangles = _peel_to_loop(_delaunay(plane), rim, len(plane))
+    if len(triangles) != 2 * len(plane) - 2 - len(rim):
+        outside = np.setdiff1d(np.arange(len(plane)), triangles)
+        raise SolveError(
+            f"the parameter points do not fill the boundary loop: {len(triangles)} triangles instead of "
+            f"{2 * len(plane) - 2 - len(rim)}"
+            + (f", points {name_some(outside)} lie on or outside it" if len(outside) else "")
+            + "; use another boundary or a larger neighbourhood"
+        )
+    return triangles
+
+
+def coinciding(uv: UV) -> Indices:
+    """List the points whose parameters equal those of another point, in the order of their parameters.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> coinciding(np.array([[0.0, 1.0], [2.0, 2.0], [0.0, 1.0]]))
+    array([0, 2])
+    """
+    order = np.lexsort((uv[:, 1], uv[:, 0]))
+    same = (uv[order[1:]] == uv[order[:-1]]).all(axis=1)
+    return np.asarray(order[np.append(same, False) | np.insert(same, 0, False)])
+
+
+def _delaunay(uv: UV) -> Triangles:
+    doubled = coinciding(uv)
+    if len(doubled):
+        raise SolveError(
+            f"the parameters of {len(doubled)} points coincide with those of others (points {name_some(doubled)}), so "
+            "they cannot be triangulated; use reciprocal or mean value weights, or a larger neighbourhood"
+        )
+    order = morton_order(uv)
+    engine = startinpy.DT()
+    engine.snap_tolerance = 1e-300
+    engine.insert(np.column_stack([uv[order], np.zeros(len(uv))]))
+    return np.asarray(order[engine.triangles.astype(np.int64) - 1])
+
+
+def _peel_to_loop(triangles: Triangles, rim: Loop, n_points: int) -> Triangles:
+    edges = half_edges(triangles, n_points)
+    successor = np.full(n_points, -1, np.int64)
+    successor[rim] = np.roll(rim, -1)
+    removed = np.zeros(len(triangles), np.bool_)
+    peel(edges.origins, edges.twins, successor, np.empty(len(edges.origins), np.int64), removed)
+    return triangles[~removed]

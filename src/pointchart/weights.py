@@ -1,0 +1,202 @@
+"""Convex weights: from neighbourhoods to the numbers of system (2.1).
+
+Every scheme has the one signature ``scheme(points, neighborhoods) -> (nnz,)``; so does whatever a user passes in its place.
+"""
+
+from collections.abc import Callable
+from typing import TypeAlias
+
+import numpy as np
+
+from ._kernels.shape_preserving import shape_preserving as shape_preserving_kernel
+from ._parallel import over_ranges
+from .errors import InputError
+from .neighbors import Neighborhoods
+from .typing import Floats, Indices, Points, Weights
+
+WeightScheme: TypeAlias = Callable[[Points, Neighborhoods], Weights]
+
+
+def normalize(weights: Weights, neighborhoods: Neighborhoods) -> Weights:
+    """Divide positive weights by their sum over each neighbourhood."""
+    rows = neighborhoods.rows
+    return np.asarray(weights / np.bincount(rows, weights, neighborhoods.n_points)[rows])
+
+
+def uniform(points: Points, neighborhoods: Neighborhoods) -> Weights:
+    r"""Weigh all neighbours alike: :math:`\lambda_{ij} = 1 / |N_i|`.
+
+    Two points with equal neighbourhoods fall together (Proposition 4.1): prefer another scheme, except for tests.
+
+    Parameters
+    ----------
+    points : (n, 3) array
+    neighborhoods : Neighborhoods
+
+    Returns
+    -------
+    (nnz,) float64 array, dimensionless.
+
+    References
+    ----------
+    Floater and Reimers 2001, section 4, method 1.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> pair = Neighborhoods(np.array([0, 2, 2, 2]), np.array([1, 2]))
+    >>> uniform(np.array([[0.0, 0, 0], [1, 0, 0], [-3, 0, 0]]), pair)
+    array([0.5, 0.5])
+    """
+    return normalize(np.ones(len(neighborhoods.indices)), neighborhoods)
+
+
+def reciprocal_distance(points: Points, neighborhoods: Neighborhoods) -> Weights:
+    r"""Weigh neighbours by :math:`1 / \|x_j - x_i\|`: chord length parameterization, generalized.
+
+    Needs no order among the neighbours, so it suits balls and nearest points.
+
+    Parameters
+    ----------
+    points : (n, 3) array
+        Distinct points.
+    neighborhoods : Neighborhoods
+
+    Returns
+    -------
+    (nnz,) float64 array, dimensionless.
+
+    References
+    ----------
+    Floater and Reimers 2001, section 4, method 2.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> pair = Neighborhoods(np.array([0, 2, 2, 2]), np.array([1, 2]))
+    >>> reciprocal_distance(np.array([[0.0, 0, 0], [1, 0, 0], [-3, 0, 0]]), pair)
+    array([0.75, 0.25])
+    """
+    return normalize(1.0 / _lengths(_offsets(points, neighborhoods)), neighborhoods)
+
+
+def mean_value(points: Points, neighborhoods: Neighborhoods) -> Weights:
+    r"""Weigh neighbours by mean value coordinates: positive, smooth in the points, exact on planes.
+
+    .. math:: w_{ij} = \frac{\tan(\alpha_{j-1}/2) + \tan(\alpha_j/2)}{\|x_j - x_i\|}
+
+    with :math:`\alpha_j` the angle at :math:`x_i` between neighbours j and j + 1, measured in space. An open star has no
+    angle across its gap.
+
+    Parameters
+    ----------
+    points : (n, 3) array
+        Distinct points.
+    neighborhoods : Neighborhoods
+        Ordered: Delaunay stars or the one-rings of a mesh.
+
+    Returns
+    -------
+    (nnz,) float64 array, dimensionless.
+
+    Raises
+    ------
+    InputError
+        If the neighbours are not ordered.
+
+    References
+    ----------
+    Floater 2003, Mean value coordinates, equation (5).
+
+    Examples
+    --------
+    >>> from pointchart.neighbors import delaunay_star, nearest
+    >>> import numpy as np
+    >>> plus = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0]])
+    >>> mean_value(plus, delaunay_star(plus, nearest(plus, 4)))[:4].round(12)
+    array([0.25, 0.25, 0.25, 0.25])
+    """
+    following, is_last = _following(neighborhoods)
+    offset = _offsets(points, neighborhoods)
+    length = _lengths(offset)
+    tangent = half_angle_tangent(offset, offset[following], length, length[following])
+    tangent[is_last] = 0.0
+    both = tangent.copy()
+    both[following] += tangent
+    both[both == 0.0] = 1.0  # a lone neighbour, or a fan without any angle
+    return normalize(both / length, neighborhoods)
+
+
+def half_angle_tangent(a: Floats, b: Floats, length_a: Floats, length_b: Floats) -> Floats:
+    """Return tan(angle / 2) between vectors a and b, (n, d), without cancellation for small angles."""
+    along = np.einsum("ij,ij->i", a, b)
+    product = length_a * length_b
+    sine = np.sqrt(np.maximum(product - along, 0.0) * (product + along).clip(0.0))
+    return np.asarray(sine / np.maximum(product + along, 1e-15 * product))
+
+
+def shape_preserving(points: Points, neighborhoods: Neighborhoods) -> Weights:
+    r"""Weigh neighbours by the averaged barycentric coordinates of Floater 1997: exact on planes.
+
+    For each neighbour j, the ray from :math:`x_j` through :math:`x_i` meets an edge k, k + 1 of the star; the barycentric
+    coordinates of :math:`x_i` in the triangle j, k, k + 1 are averaged over j. Open stars, which do not surround their
+    centre, get mean value weights.
+
+    Parameters
+    ----------
+    points : (n, 3) array
+    neighborhoods : Neighborhoods
+        Delaunay stars: ordered, with planar positions.
+
+    Returns
+    -------
+    (nnz,) float64 array, dimensionless.
+
+    Raises
+    ------
+    InputError
+        If the neighbours have no planar positions.
+
+    References
+    ----------
+    Floater 1997, Parametrization and smooth approximation of surface triangulations, section 6.
+    Floater and Reimers 2001, section 4, method 3.
+
+    Examples
+    --------
+    >>> from pointchart.neighbors import delaunay_star, nearest
+    >>> import numpy as np
+    >>> kite = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [-3, 0, 0], [0, -1, 0]])
+    >>> shape_preserving(kite, delaunay_star(kite, nearest(kite, 4)))[:4].round(12).tolist()
+    [0.375, 0.25, 0.125, 0.25]
+    """
+    if neighborhoods.local is None or neighborhoods.is_open is None:
+        raise InputError("shape-preserving weights need planar positions of the neighbours; use Delaunay stars")
+    local, is_open = neighborhoods.local, neighborhoods.is_open
+    weight = np.zeros(len(neighborhoods.indices))
+    over_ranges(
+        lambda first, last: shape_preserving_kernel(local, neighborhoods.indptr, is_open, first, last, weight),
+        neighborhoods.n_points,
+    )
+    open_entries = np.repeat(is_open, neighborhoods.sizes)
+    weight[open_entries] = mean_value(points, neighborhoods)[open_entries]
+    return normalize(weight, neighborhoods)
+
+
+def _offsets(points: Points, neighborhoods: Neighborhoods) -> Floats:
+    return np.asarray(points[neighborhoods.indices] - points[neighborhoods.rows])
+
+
+def _lengths(offset: Floats) -> Floats:
+    return np.sqrt(np.einsum("ij,ij->i", offset, offset))
+
+
+def _following(neighborhoods: Neighborhoods) -> tuple[Indices, Indices]:
+    """Return the entry that follows each one in its star, and the entries after which an open star ends."""
+    if neighborhoods.is_open is None:
+        raise InputError("mean value weights need ordered neighbours; use Delaunay stars or the rings of a mesh")
+    following = np.arange(1, len(neighborhoods.indices) + 1)
+    filled = neighborhoods.sizes > 0
+    last = neighborhoods.indptr[1:] - 1
+    following[last[filled]] = neighborhoods.indptr[:-1][filled]
+    return following, last[filled & neighborhoods.is_open]
