@@ -1,24 +1,10 @@
 """The checks at the door: every public function calls these and trusts its data afterwards."""
 
-from collections.abc import Sequence
-
 import numpy as np
 from numpy.typing import ArrayLike
 
 from .errors import InputError
-from .typing import Indices, Loop, Points
-
-
-def name_some(indices: Sequence[int] | Indices, shown: int = 3) -> str:
-    """Name a few indices and count the rest.
-
-    >>> name_some([17, 40, 5, 8, 9])
-    '17, 40, 5 and 2 more'
-    >>> name_some([17])
-    '17'
-    """
-    text = ", ".join(str(int(i)) for i in indices[:shown])
-    return text + (f" and {len(indices) - shown} more" if len(indices) > shown else "")
+from .typing import Loop, Points
 
 
 def check_points(points: ArrayLike, least: int = 4) -> Points:
@@ -43,8 +29,9 @@ def check_points(points: ArrayLike, least: int = 4) -> Points:
     extent = np.abs(centred).max()
     if extent == 0.0:
         raise InputError(f"all {len(array)} points are the same; a surface patch needs points that differ")
-    spread = np.linalg.svd(centred / extent - (centred / extent).mean(axis=0), compute_uv=False)
-    if spread[1] <= 1e-12 * spread[0]:
+    centred /= extent
+    farthest = centred[np.argmax(np.einsum("ij,ij->i", centred, centred))]
+    if np.abs(np.cross(centred, farthest)).max() <= 1e-12:
         raise InputError(f"all {len(array)} points lie on one line, which bounds no surface; check the columns read")
     return array
 
@@ -75,7 +62,7 @@ def check_loop(loop: ArrayLike, n_points: int) -> Loop:
     repeated = names[counts > 1]
     if len(repeated):
         raise InputError(
-            f"boundary points {name_some(repeated)} are named more than once, but a loop passes each once; "
-            "drop the repetitions"
+            "boundary points {repeated} are named more than once, but a loop passes each once; drop the repetitions",
+            repeated=repeated,
         )
     return array

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.spatial import cKDTree
 
-from ._check import check_points, name_some
+from ._check import check_points
 from ._kernels.planes import fit_normals
 from ._kernels.stars import delaunay_stars as stars_kernel
 from ._parallel import over_ranges
@@ -14,7 +14,7 @@ from .errors import InputError
 from .typing import Floats, Indices, Mask, Points, Triangles
 
 STEEPEST = 0.8  # sine of the steepest neighbour against the tangent plane; steeper ones lie on another sheet
-PLANE_NEIGHBORS = 16
+TIE_BREAK = 1e-4
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -115,8 +115,9 @@ def ball(points: ArrayLike, radius: float | Floats) -> Neighborhoods:
     lonely = np.flatnonzero(result.sizes == 0)
     if len(lonely):
         raise InputError(
-            f"the radius leaves points {name_some(lonely)} without any neighbour; "
-            f"the loneliest has its nearest at {spacing(cloud, 1).max():.4g}: use a larger radius, or the nearest k"
+            "the radius leaves points {lonely} without any neighbour; the loneliest has its nearest at "
+            f"{spacing(cloud, k=1).max():.4g}: use a larger radius, or the nearest k",
+            lonely=lonely,
         )
     return result
 
@@ -160,13 +161,15 @@ def _without_self(found: Indices) -> Indices:
     return found[~own].reshape(len(found), -1)
 
 
-def spacing(points: ArrayLike, k: int = 6) -> Floats:
+def spacing(points: ArrayLike, *, k: int = 6, around: Neighborhoods | None = None) -> Floats:
     """Measure the local spacing: the median distance to the `k` nearest points.
 
     Parameters
     ----------
     points : (n, 3) array
     k : int
+    around : Neighborhoods, optional
+        At least `k` nearest points of each, if they have been found already.
 
     Returns
     -------
@@ -178,8 +181,35 @@ def spacing(points: ArrayLike, k: int = 6) -> Floats:
     array([1., 1., 1., 1.])
     """
     cloud = check_points(points)
-    distance = cKDTree(cloud).query(cloud, k=np.arange(2, min(k + 1, len(cloud)) + 1), workers=-1)[0]
-    return np.asarray(np.median(distance, axis=1))
+    found = nearest(cloud, k) if around is None else around
+    closest = found.indices.reshape(len(cloud), -1)[:, :k]
+    return np.asarray(np.median(np.linalg.norm(cloud[closest] - cloud[:, None], axis=2), axis=1))
+
+
+def break_ties(points: ArrayLike, spacing: Floats) -> Points:
+    """Move each point by up to a ten-thousandth of the spacing, the same way on every call.
+
+    On a grid all circles hold four points, and neighbouring stars cannot agree on a diagonal. So stars that have to agree
+    are searched among points in general position; nothing else ever sees the moved points.
+
+    Parameters
+    ----------
+    points : (n, 3) array
+    spacing : (n,) array
+        Local spacing.
+
+    Returns
+    -------
+    (n, 3) float64 array.
+
+    Examples
+    --------
+    >>> corners = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0]])
+    >>> bool(np.abs(break_ties(corners, np.ones(4)) - corners).max() < 1e-4)
+    True
+    """
+    cloud = check_points(points)
+    return cloud + TIE_BREAK * spacing[:, None] * np.random.default_rng(0).uniform(-1.0, 1.0, cloud.shape)
 
 
 def normals(points: ArrayLike, around: Neighborhoods) -> Floats:

@@ -6,7 +6,7 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import ArrayLike
 
-from ._check import check_loop, check_points, name_some
+from ._check import check_loop, check_points
 from ._kernels.graphs import dominators
 from .errors import InputError, SolveError
 from .neighbors import Neighborhoods
@@ -117,14 +117,17 @@ def check_connected(neighborhoods: Neighborhoods, loop: Loop) -> None:
     lost = np.flatnonzero(hanging_on == -2)
     if len(lost):
         raise InputError(
-            f"interior points {name_some(lost)} have no path to the boundary, so their position is undetermined; use a "
-            f"larger neighbourhood (its median size is {median}), or remove them"
+            "interior points {lost} have no path to the boundary, so their position is undetermined; use a "
+            f"larger neighbourhood (its median size is {median}), or remove them",
+            lost=lost,
         )
     hanging = np.flatnonzero(hanging_on >= 0)
     if len(hanging):
         raise InputError(
-            f"interior points {name_some(hanging)} reach the boundary only through point {hanging_on[hanging[0]]}, into "
-            f"which they would collapse; use a larger neighbourhood (its median size is {median}), or remove them"
+            "interior points {hanging} reach the boundary only through point {through}, into which they would collapse; "
+            f"use a larger neighbourhood (its median size is {median}), or remove them",
+            hanging=hanging,
+            through=hanging_on[hanging[0]],
         )
 
 
@@ -170,8 +173,9 @@ def _convex_matrix(weights: ArrayLike, neighborhoods: Neighborhoods, loop: Loop)
     if len(negative) or not np.all(np.abs(sums - 1.0) < 1e-9):
         culprit = neighborhoods.rows[negative[0]] if len(negative) else int(np.argmax(np.abs(sums - 1.0)))
         raise InputError(
-            f"the weights at point {culprit} are no convex combination (smallest {values.min():.3g}, sum {sums[culprit]:.6g}); "
-            "they have to be positive and to sum to one"
+            f"the weights at point {{culprit}} are no convex combination (smallest {values.min():.3g}, sum "
+            f"{sums[culprit]:.6g}); they have to be positive and to sum to one",
+            culprit=culprit,
         )
     return sp.csr_array((values, neighborhoods.indices, neighborhoods.indptr), shape=(n, n))
 
@@ -183,7 +187,8 @@ def _inside(uv: UV, layout: UV) -> UV:
     outside = np.flatnonzero(((uv < low - slack) | (uv > high + slack)).any(axis=1))
     if len(outside):
         raise SolveError(
-            f"points {name_some(outside)} were mapped outside the domain, so the system was not solved well enough; "
-            "use the direct solver or a smaller tolerance"
+            "points {outside} were mapped outside the domain, so the system was not solved well enough; use the direct "
+            "solver or a smaller tolerance",
+            outside=outside,
         )
     return uv

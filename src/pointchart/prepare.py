@@ -20,13 +20,18 @@ class Cloud:
         Dimensionless.
     rows : (n,) int64
         The row of the scan that each point was read from: the first one, where rows repeat a point.
-    n_repeated : int
-        Rows that repeat an earlier one exactly.
+    places : (N,) int64
+        The point that each of the N rows of the scan gave.
     """
 
     points: Points
     rows: Indices
-    n_repeated: int
+    places: Indices
+
+    @property
+    def n_repeated(self) -> int:
+        """Rows that repeat an earlier one exactly."""
+        return len(self.places) - len(self.rows)
 
 
 def prepare(points: ArrayLike) -> Cloud:
@@ -52,22 +57,27 @@ def prepare(points: ArrayLike) -> Cloud:
     Examples
     --------
     >>> cloud = prepare([[8, 8, 0], [0, 0, 0], [8, 8, 0], [8, 0, 0], [0, 8, 0]])
-    >>> cloud.rows, cloud.n_repeated
-    (array([1, 3, 4, 0]), 1)
+    >>> cloud.rows, cloud.places, cloud.n_repeated
+    (array([1, 3, 4, 0]), array([3, 0, 3, 1, 2]), 1)
     """
     scan = check_points(points)
-    first = _first_rows(scan)
+    first, group = _distinct_rows(scan)
     distinct = check_points(scan[first])
     middle = (distinct.min(axis=0) + distinct.max(axis=0)) / 2.0
     centred = distinct - distinct[np.argmin(np.abs(distinct - middle).max(axis=1))]
     unit = np.ldexp(centred, -int(np.ceil(np.log2(np.abs(centred).max()))))
     order = morton_order(unit)
-    return Cloud(np.ascontiguousarray(unit[order]), first[order], len(scan) - len(first))
+    place = np.empty_like(order)
+    place[order] = np.arange(len(order))
+    return Cloud(np.ascontiguousarray(unit[order]), first[order], place[group])
 
 
-def _first_rows(points: Points) -> Indices:
-    """List the first row of each distinct point, ascending."""
+def _distinct_rows(points: Points) -> tuple[Indices, Indices]:
+    """List the first row of each distinct point, ascending, and for each row the place of its point in that list."""
     order = np.lexsort(points.T)
     is_new = np.append(True, (points[order[1:]] != points[order[:-1]]).any(axis=1))
     # lexsort is stable: the first of each run of equal points is the earliest row.
-    return np.asarray(np.sort(order[is_new]))
+    first_of = np.empty_like(order)
+    first_of[order] = order[is_new][np.cumsum(is_new) - 1]
+    first = np.flatnonzero(first_of == np.arange(len(points)))
+    return first, np.searchsorted(first, first_of)

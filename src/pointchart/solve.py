@@ -15,6 +15,7 @@ from .typing import Floats, Indices
 TOLERANCE = 1e-12
 MOST_ITERATIONS = 20_000
 DIRECT_LIMIT = 1_000_000
+SMALL = 100
 
 Solved: TypeAlias = tuple[Floats, tuple[int, ...]]
 Solver: TypeAlias = Callable[[sp.csr_array, Floats], Solved]
@@ -102,22 +103,39 @@ def solve_fixed(matrix: sp.csr_array, fixed: Indices, values: Floats, *, solver:
     return Solution(full, residual, iterations, chosen.__name__, len(free), left.nnz)
 
 
-def direct(left: sp.csr_array, right: Floats) -> Solved:
+class Direct:
     """Solve by LU without pivoting, ordered by nested dissection, with one step of iterative refinement.
 
-    The matrix is a diagonally dominant M-matrix, which needs no pivoting.
+    The matrix is a diagonally dominant M-matrix, which needs no pivoting. The order of elimination is kept, and serves
+    again for later systems of the same size: systems on the same points have nearly the same graph, and any order is right.
     """
-    factors, order = _factorize(left)
-    solution = np.empty_like(right)
-    solution[order] = factors.solve(right[order])
-    solution[order] += factors.solve((right - left @ solution)[order])
-    return solution, ()
+
+    __name__ = "direct"
+
+    def __init__(self) -> None:
+        self._order: Indices | None = None
+
+    def __call__(self, left: sp.csr_array, right: Floats) -> Solved:
+        """Solve ``left @ x = right``."""
+        if self._order is None or len(self._order) != left.shape[0]:
+            self._order = nested_dissection(left)
+        factors = _factorize(left, self._order)
+        solution = np.empty_like(right)
+        solution[self._order] = factors.solve(right[self._order])
+        solution[self._order] += factors.solve((right - left @ solution)[self._order])
+        return solution, ()
+
+
+def direct(left: sp.csr_array, right: Floats) -> Solved:
+    """Solve one system by LU without pivoting; see `Direct`."""
+    return Direct()(left, right)
 
 
 def cholesky(left: sp.csr_array, right: Floats) -> Solved:
     """Solve the symmetric case (4.5) by factors L D L^T of the row-scaled matrix; positive pivots prove it definite."""
     symmetric, scale = symmetrize(left)
-    factors, order = _factorize(symmetric)
+    order = nested_dissection(symmetric)
+    factors = _factorize(symmetric, order)
     if not np.all(factors.U.diagonal() > 0.0):
         raise SolveError("the scaled matrix is not positive definite; use the direct solver")
     solution = np.empty_like(right)
@@ -183,24 +201,28 @@ def _component_seeds(left: sp.csr_array) -> Indices:
     return np.asarray(np.unique(labels, return_index=True)[1])
 
 
-def _factorize(left: sp.csr_array) -> tuple[Any, Indices]:
+def nested_dissection(left: sp.csr_array) -> Indices:
+    """Order unknowns for elimination by METIS, from the graph of the matrix and its transpose."""
     import pymetis
 
     n = left.shape[0]
-    pattern = sp.csr_array(left, copy=True)
-    pattern.setdiag(0.0)
-    pattern = abs(pattern) + abs(pattern.T)
-    pattern.eliminate_zeros()
-    if n > 100:
-        order = np.asarray(pymetis.nested_dissection(pymetis.CSRAdjacency(pattern.indptr, pattern.indices))[0])
-    else:
-        order = np.arange(n)
+    if n <= SMALL:
+        return np.arange(n)
+    pattern = sp.csr_array((np.ones(left.nnz, np.int8), left.indices, left.indptr), shape=left.shape)
+    pattern = (pattern + pattern.T).tocoo()
+    off = pattern.row != pattern.col
+    graph = sp.csr_array((pattern.data[off], (pattern.row[off], pattern.col[off])), shape=left.shape)
+    return np.asarray(pymetis.nested_dissection(pymetis.CSRAdjacency(graph.indptr, graph.indices))[0], dtype=np.int64)
+
+
+def _factorize(left: sp.csr_array, order: Indices) -> Any:
     ordered = sp.csc_matrix(left[order][:, order])
     try:
-        factors = sla.splu(ordered, permc_spec="NATURAL", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
+        return sla.splu(ordered, permc_spec="NATURAL", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
     except RuntimeError as failure:
-        raise SolveError(f"the factorization of {n} unknowns failed ({failure}); use a larger neighbourhood") from failure
-    return factors, order
+        raise SolveError(
+            f"the factorization of {left.shape[0]} unknowns failed ({failure}); use a larger neighbourhood"
+        ) from failure
 
 
 def _krylov(

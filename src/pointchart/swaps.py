@@ -6,9 +6,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ._check import check_points
-from ._kernels.swaps import MOST_SWAPS_OF_A_TRIANGLE, delaunay_swaps
-from .mesh import half_edges
-from .typing import Triangles
+from ._exact import orientation_signs
+from ._kernels.swaps import MOST_SWAPS_OF_A_TRIANGLE, are_joined, delaunay_swaps, swap
+from .errors import SolveError
+from .mesh import HalfEdges, half_edges
+from .typing import UV, Indices, Loop, Points, Triangles
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -72,3 +74,86 @@ def swap_to_delaunay(points: ArrayLike, triangles: Triangles) -> Swapped:
         cloud, edges.origins, edges.twins, np.empty(n, np.int64), np.empty(n, np.bool_), turns
     )
     return Swapped(edges.origins.reshape(-1, 3), int(n_swaps), bool(np.all(turns < MOST_SWAPS_OF_A_TRIANGLE)))
+
+
+def keep_edges(points: Points, triangles: Triangles) -> Swapped:
+    """Leave the triangulation of the parameters as it is."""
+    return Swapped(triangles, 0, True)
+
+
+def swap_off_sides(mesh: Swapped, loop: Loop, boundary_uv: UV) -> Swapped:
+    """Swap away inner edges whose two ends lie on the same straight side of the domain.
+
+    They are the one exception of Tutte's theorem: such an edge is mapped into the side, and its triangles go flat. On a
+    circle there are none.
+
+    Parameters
+    ----------
+    mesh : Swapped
+    loop : (b,) int64 array
+        Boundary, anticlockwise.
+    boundary_uv : (b, 2) array
+        Where it is laid out.
+
+    Returns
+    -------
+    Swapped
+
+    Raises
+    ------
+    SolveError
+        If such an edge cannot be swapped.
+
+    References
+    ----------
+    Floater 2003, One-to-one piecewise linear mappings over triangulations, theorem 4.1.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> square = np.array([[0.0, 0.0], [1, 0], [2, 0], [2, 2], [0, 2]])
+    >>> ear = Swapped(np.array([[0, 1, 2], [0, 2, 3], [0, 3, 4]]), 0, True)
+    >>> swap_off_sides(ear, np.arange(5), square).n_swaps
+    1
+    """
+    b = len(loop)
+    places = np.arange(b)
+    is_corner = orientation_signs(boundary_uv, np.column_stack([places - 1, places, (places + 1) % b])) != 0
+    if is_corner.all():
+        return mesh
+    # Side s runs from corner s to the next; a point belongs to the sides of both its loop edges.
+    ahead = np.full(mesh.triangles.max() + 1, -1)
+    behind = ahead.copy()
+    side = (np.cumsum(is_corner) - 1) % is_corner.sum()
+    ahead[loop], behind[loop] = side, np.roll(side, 1)
+    edges = half_edges(mesh.triangles, len(ahead))
+    n_swaps, flat = 0, _on_one_side(edges, ahead, behind)
+    while len(flat):
+        done = sum(_swap_if_possible(edges, h) for h in flat.tolist())
+        edges = half_edges(edges.origins.reshape(-1, 3), len(ahead))
+        before, flat = len(flat), _on_one_side(edges, ahead, behind)
+        n_swaps += done
+        if len(flat) >= before:
+            raise SolveError(
+                f"{len(flat)} inner edges join points of one straight side of the domain (points {{ends}}) and cannot be "
+                "swapped, so the map would be flat there; use the circle",
+                ends=np.unique(edges.origins[flat]),
+            )
+    return Swapped(edges.origins.reshape(-1, 3), mesh.n_swaps + n_swaps, mesh.is_settled)
+
+
+def _on_one_side(edges: HalfEdges, ahead: Indices, behind: Indices) -> Indices:
+    a, b = edges.origins, edges.targets
+    shared = (ahead[a] >= 0) & (ahead[b] >= 0)
+    shared &= (ahead[a] == ahead[b]) | (ahead[a] == behind[b]) | (behind[a] == ahead[b]) | (behind[a] == behind[b])
+    return np.flatnonzero(shared & (edges.twins > np.arange(len(a))))
+
+
+def _swap_if_possible(edges: HalfEdges, h: int) -> bool:
+    back = h - h % 3 + (h + 2) % 3
+    t = int(edges.twins[h])
+    opposite = int(edges.origins[t - t % 3 + (t + 2) % 3])
+    if are_joined(edges.origins, edges.twins, back, opposite):
+        return False
+    swap(edges.origins, edges.twins, h)
+    return True

@@ -4,7 +4,7 @@ import numpy as np
 import startinpy
 from numpy.typing import ArrayLike
 
-from ._check import check_loop, name_some
+from ._check import check_loop
 from ._kernels.peel import peel
 from .errors import InputError, SolveError
 from .mesh import half_edges
@@ -52,9 +52,9 @@ def triangulate(uv: ArrayLike, loop: ArrayLike) -> Triangles:
         outside = np.setdiff1d(np.arange(len(plane)), triangles)
         raise SolveError(
             f"the parameter points do not fill the boundary loop: {len(triangles)} triangles instead of "
-            f"{2 * len(plane) - 2 - len(rim)}"
-            + (f", points {name_some(outside)} lie on or outside it" if len(outside) else "")
-            + "; use another boundary or a larger neighbourhood"
+            f"{2 * len(plane) - 2 - len(rim)}, points {{outside}} on or outside it; use another boundary or a larger "
+            "neighbourhood",
+            outside=outside,
         )
     return triangles
 
@@ -77,8 +77,9 @@ def _delaunay(uv: UV) -> Triangles:
     doubled = coinciding(uv)
     if len(doubled):
         raise SolveError(
-            f"the parameters of {len(doubled)} points coincide with those of others (points {name_some(doubled)}), so "
-            "they cannot be triangulated; use reciprocal or mean value weights, or a larger neighbourhood"
+            f"the parameters of {len(doubled)} points coincide with those of others (points {{doubled}}), so they cannot "
+            "be triangulated; use reciprocal or mean value weights, or a larger neighbourhood",
+            doubled=doubled,
         )
     order = morton_order(uv)
     engine = startinpy.DT()

@@ -31,6 +31,13 @@ def turns_left(ax, ay, bx, by, cx, cy):
     return cross > FLAT_TURN_SINE * math.sqrt((ux * ux + uy * uy) * (vx * vx + vy * vy))
 
 
+@njit(cache=True, nogil=True, inline="always")
+def is_one_direction(ax, ay, bx, by):
+    """Tell whether two vectors point the same way, but for rounding."""
+    dot, cross = ax * bx + ay * by, ax * by - ay * bx
+    return dot > 0.0 and abs(cross) <= FLAT_TURN_SINE * dot
+
+
 @njit(cache=True, nogil=True)
 def project(points, normal, i, neighbors, steepest, name, x, y, angle):
     """Project neighbours to the tangent plane, sorted by angle; return how many are left.
@@ -55,12 +62,16 @@ def project(points, normal, i, neighbors, steepest, name, x, y, angle):
         n += 1
     kept = 0
     for k in range(n):
-        if kept > 0 and angle[k] == angle[kept - 1]:
+        if kept > 0 and is_one_direction(x[k], y[k], x[kept - 1], y[kept - 1]):
             if x[k] ** 2 + y[k] ** 2 >= x[kept - 1] ** 2 + y[kept - 1] ** 2:
                 continue
             kept -= 1
-        name[kept], x[kept], y[kept], angle[kept] = name[k], x[k], y[k], angle[k]
+        name[kept], x[kept], y[kept] = name[k], x[k], y[k]
         kept += 1
+    if kept > 1 and is_one_direction(x[0], y[0], x[kept - 1], y[kept - 1]):
+        kept -= 1
+        if x[kept] ** 2 + y[kept] ** 2 < x[0] ** 2 + y[0] ** 2:
+            name[0], x[0], y[0] = name[kept], x[kept], y[kept]
     return kept
 
 

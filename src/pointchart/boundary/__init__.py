@@ -1,0 +1,37 @@
+"""The boundary of a patch: detect its points, put them in order, lay them out on a convex domain."""
+
+from .detect import angular_gaps, hull_test
+from .find import Candidate, FoundBoundary, find_boundary
+from .layout import (
+    centripetal_steps,
+    chord_length_steps,
+    on_circle,
+    on_polygon,
+    on_square,
+    quarter_places,
+    reversed_loop,
+    sharpest_places,
+    uniform_steps,
+)
+from .rims import agreed_triangles, rims
+from .univariate import order_by_halves
+
+__all__ = [
+    "Candidate",
+    "FoundBoundary",
+    "agreed_triangles",
+    "angular_gaps",
+    "centripetal_steps",
+    "chord_length_steps",
+    "find_boundary",
+    "hull_test",
+    "on_circle",
+    "on_polygon",
+    "on_square",
+    "order_by_halves",
+    "quarter_places",
+    "reversed_loop",
+    "rims",
+    "sharpest_places",
+    "uniform_steps",
+]

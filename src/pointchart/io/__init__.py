@@ -1,10 +1,10 @@
 """Read scans and loops, write meshes and parameters: the format is chosen by the suffix."""
 
-from pointchart.io.loop import read_loop, write_loop
-from pointchart.io.output import check_output, replacing
-from pointchart.io.read import READABLE_SUFFIXES, read_scan
-from pointchart.io.scan import Scan
-from pointchart.io.write import MESH_SUFFIXES, UV_SUFFIXES, write_mesh, write_uv
+from .loop import read_loop, write_loop
+from .output import check_output, replacing
+from .read import READABLE_SUFFIXES, read_scan
+from .scan import Scan
+from .write import MESH_SUFFIXES, UV_SUFFIXES, write_mesh, write_uv
 
 __all__ = [
     "MESH_SUFFIXES",

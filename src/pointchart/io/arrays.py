@@ -9,11 +9,11 @@ from typing import Any, BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
-from pointchart.errors import FormatError
-from pointchart.io.scan import Scan, fan_triangles, scan_from_columns
-from pointchart.io.source import AnyPath, check_readable
-from pointchart.io.text import column_names
-from pointchart.typing import UV, Attributes, Indices, Points
+from ..errors import FormatError
+from ..typing import UV, Attributes, Indices, Points
+from .scan import Scan, fan_triangles, scan_from_columns
+from .source import AnyPath, check_readable
+from .text import column_names
 
 _PREFIX = "attributes/"
 _NUMBERS = "fiub"

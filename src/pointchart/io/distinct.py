@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from pointchart.typing import Indices
+from ..typing import Indices
 
 
 def distinct_rows(rows: NDArray[Any]) -> tuple[Indices, Indices]:

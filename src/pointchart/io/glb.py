@@ -6,10 +6,10 @@ from typing import Any, BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
-from pointchart.errors import FormatError
-from pointchart.io.scan import Scan, fan_triangles, scan_from_columns
-from pointchart.io.source import AnyPath, read_bytes
-from pointchart.typing import UV, Indices, Points, Triangles
+from ..errors import FormatError
+from ..typing import UV, Indices, Points, Triangles
+from .scan import Scan, fan_triangles, scan_from_columns
+from .source import AnyPath, read_bytes
 
 _COLOURS = ("red", "green", "blue", "alpha")
 

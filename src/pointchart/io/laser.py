@@ -1,16 +1,19 @@
 """Laser scans: LAS and LAZ by laspy, E57 by pye57; both are extras, imported on first use."""
 
 from importlib import import_module
+from struct import unpack, unpack_from
 from types import ModuleType
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from pointchart.errors import FormatError
-from pointchart.io.scan import Scan, scan_from_columns
-from pointchart.io.source import AnyPath, check_readable
+from ..errors import FormatError
+from .scan import Scan, scan_from_columns
+from .source import AnyPath, check_readable
 
+_LAS_HEADER, _LAS_1_4_HEADER, _COMPRESSED = 227, 375, 64
+_RECORD_HEADER, _LATE_RECORD_HEADER = 54, 60
 _E57_NAMES = {"cartesianX": "x", "cartesianY": "y", "cartesianZ": "z", "intensity": "intensity"}
 _E57_NAMES |= {f"color{colour.capitalize()}": colour for colour in ("red", "green", "blue")}
 
@@ -19,17 +22,13 @@ def read_las(path: AnyPath) -> Scan:
     """Read LAS or LAZ: coordinates scaled and shifted as the header says, all other dimensions as they are."""
     check_readable(path)
     laspy = _extra(path, "laspy", "las")
+    _check_las_header(path)
     try:
         with laspy.open(path) as reader:
-            header = reader.header
-            if not header.are_points_compressed:
-                _check_size(path, header)
             cloud = reader.read()
         columns = {axis: np.asarray(cloud[axis], np.float64) for axis in "xyz"}
         dimensions = [name for name in cloud.point_format.dimension_names if name not in ("X", "Y", "Z")]
         columns |= {name: column for name in dimensions if (column := np.asarray(cloud[name])).ndim == 1}
-    except FormatError:
-        raise
     except BaseException as error:  # a fault inside the LAZ library is a panic, which is no Exception
         if isinstance(error, (KeyboardInterrupt, SystemExit, GeneratorExit)):
             raise
@@ -65,12 +64,43 @@ def _e57_scan(file: Any, index: int) -> dict[str, NDArray[Any]]:
     return {_E57_NAMES[name]: column for name, column in data.items() if name in _E57_NAMES}
 
 
-def _check_size(path: AnyPath, header: Any) -> None:
+def _check_las_header(path: AnyPath) -> None:
+    """Hold the counts of the header against the size of the file: laspy believes them, and loops over billions."""
     with open(path, "rb") as file:
+        head = file.read(_LAS_1_4_HEADER)
         size = file.seek(0, 2)
-    held = max(size - header.offset_to_point_data, 0) // header.point_format.size
-    if header.point_count > held:
-        raise FormatError(f"{path}: the file ends after {held} of {header.point_count} points; copy or export it again")
+    if head[:4] != b"LASF" or len(head) < _LAS_HEADER:
+        raise FormatError(f"{path}: the {size} bytes do not begin with a LAS header; give it the suffix of its format")
+    header_size, start, n_records, form, length, n_points = unpack_from("<HIIBHI", head, 94)
+    end_of_records = header_size + n_records * _RECORD_HEADER
+    if head[25] >= 4 and len(head) == _LAS_1_4_HEADER:
+        first_late, n_late, n_points = unpack_from("<QIQ", head, 235)
+        end_of_records = max(end_of_records, first_late + n_late * _LATE_RECORD_HEADER if n_late else 0)
+    if max(end_of_records, start) > size:
+        raise FormatError(
+            f"{path}: the header speaks of {max(end_of_records, start)} bytes, but the file has {size}; export it again"
+        )
+    held = (size - start) // max(length, 1)
+    if form >= _COMPRESSED:
+        _check_laz_chunks(path, start, size)
+    elif n_points > held:
+        raise FormatError(f"{path}: the file ends after {held} of {n_points} points; copy or export it again")
+
+
+def _check_laz_chunks(path: AnyPath, start: int, size: int) -> None:
+    """Hold the number of chunks against the size: the decompressor believes it, and dies when memory ends."""
+    with open(path, "rb") as file:
+        file.seek(start)
+        (table,) = unpack("<q", file.read(8).ljust(8, b"\0"))
+        if table == -1:
+            file.seek(size - 8)
+            (table,) = unpack("<q", file.read(8))
+        file.seek(min(max(table, 0), size))
+        _, n_chunks = unpack("<II", file.read(8).ljust(8, b"\xff"))
+    if not start < table < size or n_chunks > size:
+        raise FormatError(
+            f"{path}: the table of {n_chunks} chunks at byte {table} is no part of its {size} bytes; copy it again"
+        )
 
 
 def _extra(path: AnyPath, module: str, extra: str) -> ModuleType:

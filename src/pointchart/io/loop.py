@@ -4,11 +4,11 @@ from itertools import chain
 
 import numpy as np
 
-from pointchart.errors import FormatError
-from pointchart.io.output import replacing
-from pointchart.io.source import AnyPath, read_lines
-from pointchart.io.table import write_rows
-from pointchart.typing import Indices, Loop
+from ..errors import FormatError
+from ..typing import Indices, Loop
+from .output import replacing
+from .source import AnyPath, read_lines
+from .table import is_index, write_rows
 
 
 def read_loop(path: AnyPath) -> Loop:
@@ -56,7 +56,7 @@ def write_loop(path: AnyPath, loop: Indices) -> None:
 
 def _parse(line: str, number: int, path: AnyPath) -> list[int]:
     fields = line.partition("#")[0].replace(",", " ").split()
-    if not all(field.isascii() and field.isdigit() and len(field) < 19 for field in fields):
+    if not all(map(is_index, fields)):
         raise FormatError(
             f"{path}: line {number} '{line.strip()[:60]}' is not a 0-based point index; write whole numbers from 0 on"
         )

@@ -8,11 +8,11 @@ from typing import TextIO
 
 import numpy as np
 
-from pointchart.errors import FormatError
-from pointchart.io.scan import Scan, fan_triangles, scan_from_columns
-from pointchart.io.source import AnyPath, read_lines
-from pointchart.io.table import as_integers, parse_rows, write_rows
-from pointchart.typing import UV, Floats, Indices, Points, Triangles
+from ..errors import FormatError
+from ..typing import UV, Floats, Indices, Points, Triangles
+from .scan import Scan, fan_triangles, scan_from_columns
+from .source import AnyPath, read_lines
+from .table import as_integers, parse_rows, write_rows
 
 _COLUMNS = {
     3: ("x", "y", "z"),
@@ -27,19 +27,19 @@ _Corners = tuple[Indices, Indices]
 def read_obj(path: AnyPath) -> Scan:
     """Read vertices, their colours, faces, and texture coordinates and normals where each vertex has just one."""
     lines = _logical_lines(read_lines(path))
-    vertices = _records(lines, "v")
+    records = _records(lines)
+    vertices = records["v"]
     table = _table(path, vertices, least=3)
     n, width = table.shape
     if width not in _COLUMNS:
         raise FormatError(f"{path}: line {vertices[1][0]} has {width} numbers after 'v'; 3, 4, 6 or 7 can be read")
     columns = dict(zip(_COLUMNS[width], table.T, strict=True))
-    faces = _faces(path, _records(lines, "f"))
+    faces = _faces(path, records["f"])
     corners = _slot(faces, 0, vertices)
     triangles = fan_triangles(path, corners, n, first=1)
     for slot, keyword, names in ((1, "vt", ("u", "v")), (2, "vn", ("nx", "ny", "nz"))):
-        records = _records(lines, keyword)
-        values = _table(path, records, least=1)[:, : len(names)]
-        of_vertex = _per_vertex(values, corners, _slot(faces, slot, records), n)
+        values = _table(path, records[keyword], least=1)[:, : len(names)]
+        of_vertex = _per_vertex(values, corners, _slot(faces, slot, records[keyword]), n)
         if of_vertex is not None and values.shape[1] == len(names):
             columns |= dict(zip(names, of_vertex.T, strict=True))
     return scan_from_columns(path, columns, triangles)
@@ -56,19 +56,24 @@ def write_obj(file: TextIO, points: Points, triangles: Triangles, uv: UV | None)
 
 
 def _logical_lines(lines: list[str]) -> list[str]:
-    """Strip blanks and comments, and join a line that ends in a backslash with the next, which is left empty."""
-    lines = [line.partition("#")[0].strip() for line in lines]
+    """Strip tabs and comments, and join a line that ends in a backslash with the next, which is left empty."""
+    lines = [line.partition("#")[0].replace("\t", " ").strip() for line in lines]
     for i in range(len(lines) - 2, -1, -1):
         if lines[i].endswith("\\"):
             lines[i], lines[i + 1] = f"{lines[i][:-1]} {lines[i + 1]}", ""
     return lines
 
 
-def _records(lines: list[str], keyword: str) -> _Records:
-    """Return what follows the keyword, and the line numbers."""
-    starts = (keyword + " ", keyword + "\t")
-    at = [i for i, line in enumerate(lines) if line.startswith(starts)]
-    return [lines[i][len(keyword) :] for i in at], np.array(at, dtype=np.int64) + 1
+def _records(lines: list[str]) -> dict[str, _Records]:
+    """Return what follows each keyword that is read, and the line numbers."""
+    texts: dict[str, list[str]] = {keyword: [] for keyword in ("v", "vt", "vn", "f")}
+    numbers: dict[str, list[int]] = {keyword: [] for keyword in texts}
+    for number, line in enumerate(lines, start=1):
+        keyword, _, rest = line.partition(" ")
+        if keyword in texts:
+            texts[keyword].append(rest or keyword)
+            numbers[keyword].append(number)
+    return {keyword: (texts[keyword], np.array(numbers[keyword], dtype=np.int64)) for keyword in texts}
 
 
 def _table(path: AnyPath, records: _Records, least: int) -> Floats:

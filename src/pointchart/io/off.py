@@ -9,12 +9,12 @@ from typing import TextIO
 
 import numpy as np
 
-from pointchart.errors import FormatError
-from pointchart.io.scan import Scan, fan_triangles, scan_from_columns
-from pointchart.io.source import AnyPath, read_lines
-from pointchart.io.table import as_integers, is_number, parse_rows, write_rows
-from pointchart.io.text import column_names
-from pointchart.typing import Indices, Points, Triangles
+from ..errors import FormatError
+from ..typing import Indices, Points, Triangles
+from .scan import Scan, fan_triangles, scan_from_columns
+from .source import AnyPath, read_lines
+from .table import as_integers, is_index, parse_rows, write_rows
+from .text import column_names
 
 _KEYWORD = re.compile(r"(C?N?|NC)OFF\b")
 _COLOURS, _NORMALS = ("red", "green", "blue", "alpha"), ("nx", "ny", "nz")
@@ -30,7 +30,7 @@ def read_off(path: AnyPath) -> Scan:
     counts, body = rows[0][keyword.end() :].split(), 1
     if not counts and len(rows) > 1:
         counts, body = rows[1].split(), 2
-    if len(counts) < 2 or not all(count.isdigit() for count in counts):
+    if len(counts) < 2 or not all(map(is_index, counts[:2])):
         raise FormatError(
             f"{path}: line {numbers[body - 1]} '{' '.join(counts)[:60]}' is not the numbers of vertices and faces; "
             "write both as whole numbers from 0 on"
@@ -75,7 +75,7 @@ def _polygons(path: AnyPath, numbered: _Numbered) -> list[tuple[Indices, Indices
     for (count, width), places in forms.items():
         lines = [numbers[i] for i in places]
         table = parse_rows([rows[i] for i in places], path=path, line_numbers=lines)
-        n_corners = int(count) if is_number(count) and count.isdigit() else width
+        n_corners = int(count) if is_index(count) else width
         corners = as_integers(table[:, 1 : n_corners + 1])
         if corners is None or n_corners >= width:
             raise FormatError(

@@ -6,8 +6,8 @@ from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
-from pointchart.errors import FormatError, InputError
-from pointchart.io.source import AnyPath
+from ..errors import FormatError, InputError
+from .source import AnyPath
 
 
 def check_output(path: AnyPath, *, suffixes: Sequence[str], inputs: Iterable[AnyPath] = ()) -> Path:

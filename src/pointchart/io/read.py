@@ -3,17 +3,17 @@
 from collections.abc import Callable
 from pathlib import Path
 
-from pointchart.errors import FormatError
-from pointchart.io.arrays import read_npy, read_npz
-from pointchart.io.glb import read_glb
-from pointchart.io.laser import read_e57, read_las
-from pointchart.io.obj import read_obj
-from pointchart.io.off import read_off
-from pointchart.io.ply import read_ply
-from pointchart.io.scan import Scan
-from pointchart.io.source import AnyPath
-from pointchart.io.stl import read_stl
-from pointchart.io.text import read_text
+from ..errors import FormatError
+from .arrays import read_npy, read_npz
+from .glb import read_glb
+from .laser import read_e57, read_las
+from .obj import read_obj
+from .off import read_off
+from .ply import read_ply
+from .scan import Scan
+from .source import AnyPath
+from .stl import read_stl
+from .text import read_text
 
 _READERS: dict[str, Callable[[AnyPath], Scan]] = {
     ".ply": read_ply,

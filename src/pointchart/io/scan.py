@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from pointchart.errors import FormatError
-from pointchart.io.source import AnyPath
-from pointchart.typing import Attributes, Indices, Points, Triangles
+from ..errors import FormatError
+from ..typing import Attributes, Indices, Points, Triangles
+from .source import AnyPath
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -4,7 +4,7 @@ import os
 from pathlib import Path
 from typing import TypeAlias
 
-from pointchart.errors import FormatError
+from ..errors import FormatError
 
 AnyPath: TypeAlias = str | os.PathLike[str]
 

@@ -8,12 +8,12 @@ from typing import BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
-from pointchart.errors import FormatError
-from pointchart.io.distinct import distinct_rows
-from pointchart.io.scan import Scan
-from pointchart.io.source import AnyPath, decode, read_bytes, split_lines
-from pointchart.io.table import parse_rows
-from pointchart.typing import Points, Triangles
+from ..errors import FormatError
+from ..typing import Points, Triangles
+from .distinct import distinct_rows
+from .scan import Scan
+from .source import AnyPath, decode, read_bytes, split_lines
+from .table import parse_rows
 
 _HEADER = 84
 _FACET = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
@@ -60,5 +60,5 @@ def _text_corners(path: AnyPath, data: bytes) -> NDArray[np.float64]:
         raise FormatError(
             f"{path}: {len(at)} corners stand in {n_facets} whole facets, which need {3 * n_facets}; export it again"
         )
-    rows = [lines[i].removeprefix("vertex") for i in at]
+    rows = [lines[i].removeprefix("vertex") or lines[i] for i in at]
     return parse_rows(rows, path=path, line_numbers=[i + 1 for i in at], width=3)

@@ -6,9 +6,9 @@ from typing import TextIO
 import numpy as np
 from numpy.typing import NDArray
 
-from pointchart.errors import FormatError
-from pointchart.io.source import AnyPath
-from pointchart.typing import Floats
+from ..errors import FormatError
+from ..typing import Floats
+from .source import AnyPath
 
 _BLOCK = 1 << 17
 
@@ -64,6 +64,11 @@ def is_number(field: str) -> bool:
     except ValueError:
         return False
     return "_" not in field
+
+
+def is_index(field: str) -> bool:
+    """Return whether `field` is a whole number from 0 on that int64 holds."""
+    return field.isascii() and field.isdigit() and len(field) < 19
 
 
 def as_integers(table: Floats) -> NDArray[np.int64] | None:

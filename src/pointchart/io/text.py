@@ -9,10 +9,10 @@ import re
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from pointchart.errors import FormatError
-from pointchart.io.scan import Scan, scan_from_columns
-from pointchart.io.source import AnyPath, read_lines
-from pointchart.io.table import is_number, parse_rows
+from ..errors import FormatError
+from .scan import Scan, scan_from_columns
+from .source import AnyPath, read_lines
+from .table import is_index, is_number, parse_rows
 
 _COMMENT = re.compile(r"(#|//)[^\n]*")
 _DECIMAL_COMMA = re.compile(r"[+-]?\d*(,\d+)?([eE][+-]?\d+)?")
@@ -35,6 +35,7 @@ def read_text(path: AnyPath) -> Scan:
     layout = _layout(lines, path)
     rows = _blank_separated("\n".join(lines[layout.start :]), layout.separator).split("\n")
     numbers = range(layout.start + 1, len(lines) + 1)
+    del lines  # as large as the rows
     table = parse_rows(rows, path=path, line_numbers=numbers, least=3)
     if layout.promised is not None and layout.promised != len(table):
         raise FormatError(
@@ -78,7 +79,7 @@ def _layout(lines: list[str], path: AnyPath) -> _Layout:
         fields = re.split(r"[\s,;]+", content.replace('"', "").strip(" \t,;"))
         if not any(map(is_number, fields)):
             header, is_comment = content, False
-        elif promised is None and len(fields) == 1 and fields[0].lstrip("+-").isdigit():
+        elif promised is None and len(fields) == 1 and is_index(fields[0].lstrip("-")):
             promised = int(fields[0])
         else:
             return _Layout(i, _separator(content), header, is_comment, promised)

@@ -6,18 +6,18 @@ from typing import TypeAlias, TypeVar
 
 import numpy as np
 
-from pointchart.errors import FormatError, InputError
-from pointchart.io.arrays import write_npz
-from pointchart.io.distinct import distinct_rows
-from pointchart.io.glb import write_glb
-from pointchart.io.obj import write_obj
-from pointchart.io.off import write_off
-from pointchart.io.output import replacing
-from pointchart.io.ply import write_ply
-from pointchart.io.source import AnyPath
-from pointchart.io.stl import write_stl
-from pointchart.io.table import write_rows
-from pointchart.typing import UV, Attributes, Points, Triangles
+from ..errors import FormatError, InputError
+from ..typing import UV, Attributes, Points, Triangles
+from .arrays import write_npz
+from .distinct import distinct_rows
+from .glb import write_glb
+from .obj import write_obj
+from .off import write_off
+from .output import replacing
+from .ply import write_ply
+from .source import AnyPath
+from .stl import write_stl
+from .table import write_rows
 
 _MeshWriter: TypeAlias = Callable[[Path, Points, Triangles, UV | None, Attributes], list[str]]
 _UVWriter: TypeAlias = Callable[[Path, UV, Points | None, Attributes], list[str]]

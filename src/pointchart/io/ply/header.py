@@ -3,8 +3,9 @@
 import re
 from dataclasses import dataclass, field
 
-from pointchart.errors import FormatError
-from pointchart.io.source import AnyPath, decode
+from ...errors import FormatError
+from ..source import AnyPath, decode
+from ..table import is_index
 
 TYPES = {
     "char": "i1",
@@ -91,7 +92,7 @@ def parse_header(path: AnyPath, data: bytes) -> Header:
 
 
 def _count(word: str) -> int:
-    if not word.isdigit():
+    if not is_index(word):
         raise ValueError("the count must be a whole number from 0 on")
     return int(word)
 

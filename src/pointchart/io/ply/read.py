@@ -5,12 +5,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from pointchart.errors import FormatError
-from pointchart.io.ply.header import Element, Property, parse_header
-from pointchart.io.ply.rows import Group, binary_groups, cut_off, text_groups
-from pointchart.io.scan import Scan, fan_triangles, scan_from_columns
-from pointchart.io.source import AnyPath, decode, read_bytes, split_lines
-from pointchart.typing import Indices
+from ...errors import FormatError
+from ...typing import Indices
+from ..scan import Scan, fan_triangles, scan_from_columns
+from ..source import AnyPath, decode, read_bytes, split_lines
+from .header import Element, Property, parse_header
+from .rows import Group, binary_groups, cut_off, text_groups
 
 _CORNERS = ("vertex_indices", "vertex_index")
 

@@ -1,7 +1,7 @@
 """The rows of one PLY element, as groups of rows of one layout, so that numpy reads each group at once.
 
 The lengths of the lists in a row are its *signature*. Rows of one signature have one dtype, in which the list `a` is
-the pair of fields `a` (length, count) and `#a`, the count. Mostly all rows have the signature of the first.
+the pair of fields `count of a` and `a`, an array of that length. Mostly all rows have the signature of the first.
 """
 
 from collections.abc import Iterator, Sequence
@@ -12,14 +12,15 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from pointchart.errors import FormatError
-from pointchart.io.ply.header import Element, Property
-from pointchart.io.source import AnyPath
-from pointchart.io.table import parse_rows
-from pointchart.typing import Floats, Indices
+from ...errors import FormatError
+from ...typing import Floats, Indices
+from ..source import AnyPath
+from ..table import is_index, parse_rows
+from .header import Element, Property
 
 Group: TypeAlias = tuple[Indices, NDArray[Any]]
 _Signature: TypeAlias = tuple[int, ...]
+_COUNT_OF = "count of "  # holds a blank, so no property can have the name
 _PLURAL = {"vertex": "vertices", "face": "faces"}
 
 
@@ -77,13 +78,13 @@ def _row_type(element: Element, signature: _Signature, order: str) -> np.dtype[A
         if p.count_type is None:
             fields.append((p.name, order + p.type))
         else:
-            fields += [("#" + p.name, order + p.count_type), (p.name, order + p.type, (next(lengths),))]
+            fields += [(_COUNT_OF + p.name, order + p.count_type), (p.name, order + p.type, (next(lengths),))]
     return np.dtype(fields)
 
 
 def _has_signature(rows: NDArray[Any], element: Element, signature: _Signature) -> bool:
     lists = [p for p in element.properties if p.count_type]
-    return all((rows["#" + p.name] == length).all() for p, length in zip(lists, signature, strict=True))
+    return all((rows[_COUNT_OF + p.name] == length).all() for p, length in zip(lists, signature, strict=True))
 
 
 def _binary_signature(
@@ -127,7 +128,7 @@ def _text_signature(path: AnyPath, line: str, number: int, element: Element) -> 
     fields, at, lengths = line.split(), 0, []
     for p in element.properties:
         if p.count_type is not None:
-            if at >= len(fields) or not fields[at].isdigit():
+            if at >= len(fields) or not is_index(fields[at]):
                 raise FormatError(
                     f"{path}: line {number} '{line.strip()[:60]}' has no number of values for list {p.name}; correct it"
                 )

@@ -6,8 +6,8 @@ from typing import Any, BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
-from pointchart.io.ply.header import TYPES
-from pointchart.typing import Attributes, Points, Triangles
+from ...typing import Attributes, Points, Triangles
+from .header import TYPES
 
 _TYPE_NAMES = {code: name for name, code in TYPES.items()}
 _BLOCK = 1 << 17

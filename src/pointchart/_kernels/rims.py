@@ -1,0 +1,130 @@
+"""The triangles on which neighbouring stars agree, made a surface, and the rims of that surface."""
+
+import math
+
+import numpy as np
+from numba import njit
+
+from .links import are_adjacent
+from .planes import tangent_frame
+
+
+@njit(cache=True, nogil=True)
+def largest_gaps(points, normals, indptr, indices, first, last, gap):
+    """Write the largest angle between consecutive neighbours around points first..last, in their tangent planes."""
+    most = 1
+    for i in range(first, last):
+        most = max(most, indptr[i + 1] - indptr[i])
+    angles = np.empty(most)
+    for i in range(first, last):
+        ux, uy, uz, vx, vy, vz = tangent_frame(normals[i, 0], normals[i, 1], normals[i, 2])
+        n = 0
+        for e in range(indptr[i], indptr[i + 1]):
+            j = indices[e]
+            x, y, z = points[j, 0] - points[i, 0], points[j, 1] - points[i, 1], points[j, 2] - points[i, 2]
+            angle = math.atan2(x * vx + y * vy + z * vz, x * ux + y * uy + z * uz)
+            k = n
+            while k > 0 and angles[k - 1] > angle:
+                angles[k] = angles[k - 1]
+                k -= 1
+            angles[k] = angle
+            n += 1
+        gap[i] = 2.0 * math.pi if n == 0 else angles[0] + 2.0 * math.pi - angles[n - 1]
+        for k in range(n - 1):
+            gap[i] = max(gap[i], angles[k + 1] - angles[k])
+
+
+@njit(cache=True, nogil=True)
+def count_votes(indptr, indices, is_open, first, last, votes):
+    """Count the stars that hold the triangle of each entry and its follower; 0 where a star of smaller index counts it."""
+    for i in range(first, last):
+        begin, end = indptr[i], indptr[i + 1]
+        for e in range(begin, end):
+            following = e + 1 if e + 1 < end else begin
+            votes[e] = 0
+            if end - begin < 2 or (is_open[i] and following == begin):
+                continue
+            j, k = indices[e], indices[following]
+            held_by_j = are_adjacent(indptr, indices, is_open, j, k, i)
+            held_by_k = are_adjacent(indptr, indices, is_open, k, i, j)
+            if not (held_by_j and j < i) and not (held_by_k and k < i):
+                votes[e] = 1 + held_by_j + held_by_k
+
+
+@njit(cache=True, nogil=True)
+def name_edges(triangles, first, ends, edge_of):
+    """Number the edges of triangles whatever their orientation; return how many there are.
+
+    Edge k of a triangle lies opposite to corner k. `first` is scratch space of (n_points + 1,), `ends` of (3 m, 2).
+    """
+    m = len(triangles)
+    first[:] = 0
+    for t in range(m):
+        for k in range(3):
+            first[min(triangles[t, (k + 1) % 3], triangles[t, (k + 2) % 3]) + 1] += 1
+    for v in range(len(first) - 1):
+        first[v + 1] += first[v]
+    filled = np.zeros(len(first), np.int64)
+    slots = np.full(3 * m, -1, np.int64)
+    count = 0
+    for t in range(m):
+        for k in range(3):
+            a, b = triangles[t, (k + 1) % 3], triangles[t, (k + 2) % 3]
+            a, b = min(a, b), max(a, b)
+            name = -1
+            for s in range(first[a], first[a] + filled[a]):
+                if ends[slots[s], 1] == b:
+                    name = slots[s]
+            if name < 0:
+                name = count
+                ends[count, 0], ends[count, 1] = a, b
+                slots[first[a] + filled[a]] = count
+                filled[a] += 1
+                count += 1
+            edge_of[t, k] = name
+    return count
+
+
+@njit(cache=True, nogil=True)
+def keep_manifold(order, edge_of, sides):
+    """Take triangles in the given order wherever no edge gets a third one; `sides` holds the triangles at each edge."""
+    for t in order:
+        a, b, c = edge_of[t, 0], edge_of[t, 1], edge_of[t, 2]
+        if sides[a, 1] < 0 and sides[b, 1] < 0 and sides[c, 1] < 0:
+            for e in (a, b, c):
+                sides[e, 0 if sides[e, 0] < 0 else 1] = t
+
+
+@njit(cache=True, nogil=True)
+def walk_rims(ends, edge_of, sides, seen, walk, starts):
+    """Walk along all edges with a single triangle, at each point round the fan to the next such edge.
+
+    Walks follow each other in `walk`; `starts` says where each begins. Returns the number of walks.
+    """
+    size = walks = 0
+    for seed in range(len(ends)):
+        if seen[seed] or sides[seed, 0] < 0 or sides[seed, 1] >= 0:
+            continue
+        starts[walks] = size
+        walks += 1
+        edge, at = seed, ends[seed, 1]
+        walk[size] = ends[seed, 0]
+        size += 1
+        while not seen[edge]:
+            seen[edge] = True
+            if edge != seed:
+                walk[size] = at
+                size += 1
+                at = ends[edge, 0] + ends[edge, 1] - at
+            triangle = sides[edge, 0]
+            while True:
+                for k in range(3):
+                    other = edge_of[triangle, k]
+                    if other != edge and (ends[other, 0] == at or ends[other, 1] == at):
+                        break
+                edge = other
+                if sides[edge, 1] < 0:
+                    break
+                triangle = sides[edge, 0] + sides[edge, 1] - triangle
+    starts[walks] = size
+    return walks

@@ -1,0 +1,138 @@
+"""The boundary of a scan, found and ordered without a user."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.sparse as sp
+from numpy.typing import ArrayLike
+
+from .._check import check_points
+from ..errors import InputError
+from ..neighbors import Neighborhoods, break_ties, nearest
+from ..typing import Floats, Indices, Loop, Mask, Points
+from .detect import BOUNDARY_GAP, angular_gaps
+from .rims import agreed_triangles, rims
+
+GAP_NEIGHBORS = 30
+LEAST_SHARE = 0.5
+SHORTEST = 12.0  # spacings: a shorter loop is a gap that a neighbourhood spans
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Candidate:
+    """A loop that may be a boundary.
+
+    Attributes
+    ----------
+    loop : (b,) int64
+    length : float
+        In the unit of the points.
+    share : float
+        Share of its length between points that an angular gap marks as boundary points, in [0, 1].
+    """
+
+    loop: Loop
+    length: float
+    share: float
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class FoundBoundary:
+    """The boundary that was found, and what it was chosen from.
+
+    Attributes
+    ----------
+    loop : (b,) int64
+        Boundary points in order.
+    candidates : list of Candidate
+        All loops that angular gaps support, the best first: ``candidates[0].loop`` is `loop`.
+    gaps : (n,) float64
+        Largest angular gap at each point, in radians.
+    """
+
+    loop: Loop
+    candidates: list[Candidate]
+    gaps: Floats
+
+
+def find_boundary(points: ArrayLike, star: Neighborhoods, spacing: Floats) -> FoundBoundary:
+    """Find the boundary loop of a scan.
+
+    Triangles on which neighbouring stars agree form a surface, whose rims are loops in order: the boundary, gaps of the
+    scan, and places where stars disagree. The boundary is the loop with the greatest length between points that have an
+    angular gap of more than a right angle among their 30 nearest.
+
+    Parameters
+    ----------
+    points : (n, 3) array
+        Distinct points.
+    star : Neighborhoods
+        Delaunay stars.
+    spacing : (n,) array
+        Local spacing.
+
+    Returns
+    -------
+    FoundBoundary
+
+    Raises
+    ------
+    InputError
+        If the points fall into several parts, or no loop is found, as on a closed surface.
+
+    Examples
+    --------
+    >>> from pointchart import shapes
+    >>> from pointchart.neighbors import delaunay_star, spacing
+    >>> sheet = shapes.grid(12, 9)
+    >>> step = spacing(sheet.points)
+    >>> star = delaunay_star(break_ties(sheet.points, step), nearest(sheet.points))
+    >>> found = find_boundary(sheet.points, star, step)
+    >>> len(found.loop)
+    38
+    """
+    cloud = check_points(points)
+    check_one_piece(star)
+    gaps = angular_gaps(cloud, nearest(cloud, GAP_NEIGHBORS))
+    found = [measure(cloud, loop, gaps > BOUNDARY_GAP) for loop in rims(agreed_triangles(cloud, star, spacing), len(cloud))]
+    scale = float(np.median(spacing))
+    good = [c for c in found if c.share >= LEAST_SHARE and c.length >= SHORTEST * scale]
+    if not good:
+        longest = max((c.length for c in found if c.share >= LEAST_SHARE), default=0.0)
+        raise InputError(
+            "no boundary was found: the points seem to lie on a closed surface "
+            f"(the longest gap is {longest / scale:.0f} spacings round, {SHORTEST:.0f} are needed); "
+            "cut the scan open, or give the boundary"
+        )
+    good.sort(key=lambda c: -c.share * c.length)
+    return FoundBoundary(good[0].loop, good, gaps)
+
+
+def check_one_piece(star: Neighborhoods) -> None:
+    """Check that the neighbourhoods join all points.
+
+    Raises
+    ------
+    InputError
+        Saying how many parts there are and how large, with a point of each.
+    """
+    n = star.n_points
+    graph = sp.csr_array((np.ones(len(star.indices), np.int8), star.indices, star.indptr), shape=(n, n))
+    count, labels = sp.csgraph.connected_components(graph, directed=False)
+    if count > 1:
+        sizes = np.bincount(labels)
+        largest = np.argsort(-sizes)
+        shown = " and ".join(str(size) for size in sizes[largest][:4]) + (" ..." if count > 4 else "")
+        raise InputError(
+            f"the points fall into {count} separate parts, of {shown} points (some of them: {{seeds}}), but a patch is in "
+            "one piece; mesh the parts one by one, or remove the small ones",
+            seeds=[int(np.flatnonzero(labels == part)[0]) for part in largest],
+        )
+
+
+def measure(points: Points, loop: Loop, is_boundary: Mask) -> Candidate:
+    """Measure the length of a loop and the share of it that runs between boundary points."""
+    following = np.roll(loop, -1)
+    steps = np.linalg.norm(points[following] - points[loop], axis=1)
+    marked = is_boundary[loop] & is_boundary[following]
+    return Candidate(loop, float(steps.sum()), float(steps[marked].sum() / steps.sum()))
