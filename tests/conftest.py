@@ -1,0 +1,64 @@
+"""Shapes made once a run, and the real scans where they are at hand."""
+
+from functools import cache
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+import pytest
+import trimesh
+from hypothesis import settings
+
+from pointchart import shapes
+
+# Compiled kernels make first examples slow; a fixed order makes failures come back.
+settings.register_profile("steady", deadline=None, derandomize=True)
+settings.load_profile("steady")
+
+SCANS = Path(__file__).parents[2] / "shared" / "data"
+DISCS = {
+    "disc": lambda: shapes.disc(300, seed=1),
+    "relief": lambda: shapes.relief(500, seed=2),
+    "hemisphere": lambda: shapes.hemisphere(400),
+    "cap of 150 degrees": lambda: shapes.hemisphere(400, angle=150),
+    "tube": lambda: shapes.tube(5, n_around=16),
+    "rolled sheet": lambda: shapes.bent_sheet(270, nx=25, ny=15),
+    "thinned relief": lambda: shapes.thin(shapes.relief(900, seed=3)),
+    "face": lambda: shapes.sculpture(1500),
+}
+
+
+class Scan(NamedTuple):
+    points: np.ndarray
+    triangles: np.ndarray
+    loop: np.ndarray
+
+
+@pytest.fixture(scope="session")
+def disc_shape():
+    """Return the simulated disc of a name, made once."""
+    return cache(lambda name: DISCS[name]())
+
+
+@pytest.fixture(params=DISCS)
+def any_disc(request, disc_shape):
+    """Run a test on every simulated disc."""
+    return disc_shape(request.param)
+
+
+@pytest.fixture(scope="session")
+def scan():
+    """Return a real scan, its true mesh and its true boundary by name, or skip the test where scans are not at hand."""
+
+    @cache
+    def load(name):
+        folder = SCANS / name
+        if not folder.is_dir():
+            pytest.skip(f"the real scan {name} is not in {SCANS}")
+        points = trimesh.load(folder / "points.ply", process=False).vertices
+        mesh = trimesh.load(folder / "reference.ply", process=False)
+        assert np.array_equal(points, mesh.vertices)
+        loop = np.loadtxt(folder / "boundary.txt", dtype=np.int64)
+        return Scan(np.array(points, dtype=np.float64), np.array(mesh.faces, dtype=np.int64), loop)
+
+    return load

@@ -1,0 +1,103 @@
+import numpy as np
+import pytest
+from hypothesis import given, settings
+
+from pointchart.errors import InputError
+from pointchart.links import FAR_TRUST, LONE_TRUST, distrust_far, is_near, link_stars
+from pointchart.mesh import one_rings
+from pointchart.neighbors import Neighborhoods, delaunay_star, nearest
+from pointchart.shapes import add_noise, disc, fold
+
+from strategies import clouds
+
+
+def links_of(points, k=15):
+    return link_stars(delaunay_star(points, nearest(points, k)))
+
+
+def pairs_of(links):
+    graph = links.neighborhoods
+    return dict(zip(zip(graph.rows.tolist(), graph.indices.tolist(), strict=True), links.trust, strict=True))
+
+
+@settings(max_examples=30)
+@given(clouds())
+def test_links_are_symmetric_and_so_is_their_trust(points):
+    found = pairs_of(links_of(points))
+    assert all(found[j, i] == trust for (i, j), trust in found.items())
+    assert set(found.values()) <= {LONE_TRUST, 1.0}
+    assert all(i != j for i, j in found)
+
+
+@settings(max_examples=30)
+@given(clouds())
+def test_links_are_exactly_the_pairs_of_which_one_star_holds_the_other(points):
+    star = delaunay_star(points, nearest(points, 15))
+    held = set(zip(star.rows.tolist(), star.indices.tolist(), strict=True))
+    assert set(pairs_of(link_stars(star))) == held | {(j, i) for i, j in held}
+
+
+def stars_triangles(star):
+    """List the triangles of each star as sets of corners."""
+    triangles = []
+    for i in range(star.n_points):
+        row = star.indices[star.indptr[i] : star.indptr[i + 1]].tolist()
+        ends = zip(row, row[1:] + ([] if star.is_open[i] else row[:1]), strict=False)
+        triangles += [frozenset((i, j, k)) for j, k in ends if j != k]
+    return triangles
+
+
+@settings(max_examples=30)
+@given(clouds())
+def test_a_link_has_full_trust_exactly_on_triangles_that_two_stars_hold(points):
+    star = delaunay_star(points, nearest(points, 15))
+    triangles = stars_triangles(star)
+    agreed = {t for t in triangles if triangles.count(t) > 1}
+    for (i, j), trust in pairs_of(link_stars(star)).items():
+        assert (trust == 1.0) == any({i, j} <= t for t in agreed)
+
+
+def test_inner_links_of_a_plane_are_all_trusted():
+    shape = disc(300, seed=5)
+    star = delaunay_star(shape.points, nearest(shape.points, 24))
+    links = link_stars(star)
+    inner = ~star.is_open
+    rows, columns = links.neighborhoods.rows, links.neighborhoods.indices
+    assert (links.trust[inner[rows] & inner[columns]] == 1.0).all()
+
+
+def test_links_across_a_fold_are_trusted_less_than_those_along_it():
+    shape = add_noise(fold(1.2, nx=41, ny=15), sigma_in_spacings=0.1, seed=1)
+    links = links_of(shape.points, 20)
+    apart = np.abs(shape.uv[links.neighborhoods.rows, 0] - shape.uv[links.neighborhoods.indices, 0]) > 4
+    assert links.trust[apart].mean() < 0.5 < links.trust[~apart].mean()
+
+
+def test_links_need_ordered_neighbours():
+    with pytest.raises(InputError, match="only ordered neighbourhoods can agree on triangles"):
+        link_stars(nearest(disc(40).points, 6))
+
+
+def test_near_links_are_those_within_two_edges_of_the_mesh():
+    shape = disc(120, seed=2)
+    n = len(shape.points)
+    rings = one_rings(shape.triangles, n)
+    edge = np.zeros((n, n), bool)
+    edge[rings.rows, rings.indices] = True
+    links = links_of(shape.points, 30)
+    everyone = Neighborhoods(np.arange(0, n * n + 1, n), np.tile(np.arange(n), n))
+    every_link = type(links)(everyone, np.ones(n * n))
+    near = is_near(every_link, shape.triangles).reshape(n, n)
+    expected = edge | ((edge.astype(int) @ edge) > 0)
+    assert np.array_equal(near | np.eye(n, dtype=bool), expected | np.eye(n, dtype=bool))
+
+
+def test_far_links_lose_their_trust_and_the_others_keep_it():
+    shape = fold(2, nx=31, ny=9)
+    links = links_of(shape.points, 25)
+    near = is_near(links, shape.triangles)
+    assert 0 < (~near).sum() < near.sum()
+    judged = distrust_far(links, shape.triangles)
+    assert np.array_equal(judged.trust[near], links.trust[near])
+    assert np.allclose(judged.trust[~near], FAR_TRUST * links.trust[~near], rtol=1e-15)
+    assert np.array_equal(judged.neighborhoods.indices, links.neighborhoods.indices)
