@@ -2,8 +2,8 @@
 
     python benchmarks/figures.py OUT_DIR [--data DIR] [--only 5 8]
 
-The scans lie beside the checkout, in ../shared/data; where they are missing, simulated scans take their place. Stanford's
-terms keep pictures of its bunny (Figure 7) from being sold, so they are drawn on the reader's machine only.
+The scans lie beside the checkout, in ../shared/data; where they are missing, simulated scans take their place.
+Stanford's terms keep pictures of its bunny (Figure 7) from being sold, so they are drawn on the reader's machine only.
 """
 
 import argparse
@@ -21,6 +21,7 @@ from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 from paper_scans import DATA, Scan, load_scans, run
+from PIL import Image
 
 from pointchart.boundary.layout import chord_length_steps, on_circle
 from pointchart.neighbors import Neighborhoods, ball, delaunay_star
@@ -82,7 +83,9 @@ def draw_parameters(ax: Axes, uv: UV, triangles: Triangles, line_width: float = 
 def frame(ax: Axes, seen: UV) -> None:
     low, high = seen.min(axis=0), seen.max(axis=0)
     margin = 0.02 * (high - low).max()
-    ax.set(xlim=(low[0] - margin, high[0] + margin), ylim=(low[1] - margin, high[1] + margin), aspect="equal")
+    ax.set(
+        xlim=(low[0] - margin, high[0] + margin), ylim=(low[1] - margin, high[1] + margin), aspect="equal", anchor="N"
+    )
     ax.axis("off")
 
 
@@ -94,7 +97,7 @@ def panels(rows: int, columns: int, side: float) -> tuple[Figure, list[Axes]]:
 
 
 def figure_1(scans: dict[str, Scan]) -> Figure:
-    figure, (ax,) = panels(1, 1, 8.0)
+    figure, (ax,) = panels(1, 1, 6.0)
     points, center, radius = flat_scatter(), np.zeros(2), 0.27
     draw_balls(ax, points, [int(np.argmin(np.linalg.norm(points - center, axis=1)))], radius)
     return figure
@@ -102,9 +105,11 @@ def figure_1(scans: dict[str, Scan]) -> Figure:
 
 def figure_2(scans: dict[str, Scan]) -> Figure:
     """Draw two balls: with different points, and with the same ones once those in only one of them are taken away."""
-    figure, axes = panels(1, 2, 4.6)
+    figure, axes = panels(1, 2, 4.0)
     points, radius = flat_scatter(), 0.27
-    pair = np.argsort(np.linalg.norm(points, axis=1))[:2]
+    inner = np.flatnonzero(np.linalg.norm(points, axis=1) < 0.25)
+    apart = np.linalg.norm(points[inner, None] - points[inner], axis=2) + np.eye(len(inner))
+    pair = inner[list(np.unravel_index(apart.argmin(), apart.shape))]
     distance = np.linalg.norm(points[:, None] - points[pair], axis=2)
     in_one = (distance < radius).sum(axis=1) == 1
     kept = np.append(pair, np.setdiff1d(np.flatnonzero(~in_one), pair))
@@ -119,7 +124,7 @@ def figure_2(scans: dict[str, Scan]) -> Figure:
 
 def figure_3(scans: dict[str, Scan]) -> Figure:
     """Draw a Delaunay neighbourhood among the points of a ball."""
-    figure, (ax,) = panels(1, 1, 8.0)
+    figure, (ax,) = panels(1, 1, 6.0)
     points, radius = flat_scatter(), 0.36
     space = np.c_[points, np.zeros(len(points))]
     center = int(np.argmin(np.linalg.norm(points, axis=1)))
@@ -167,7 +172,7 @@ def figure_6(scans: dict[str, Scan]) -> Figure:
 
 def methods_2_and_3(scan: Scan) -> Figure:
     """Draw the parameters on the left and the surface on the right, method 2 above method 3."""
-    figure, axes = panels(2, 2, 4.6)
+    figure, axes = panels(2, 2, 4.0)
     for k, method in enumerate(("2", "3")):
         uv = run(scan, method).uv
         triangles = triangulate(uv, scan.loop)
@@ -181,7 +186,7 @@ def methods_2_and_3(scan: Scan) -> Figure:
 def figure_7(scans: dict[str, Scan]) -> Figure:
     """Draw the bunny by method 2, and the triangles of its ears."""
     scan = scans["Bunny"]
-    figure, axes = panels(1, 3, 4.6)
+    figure, axes = panels(1, 3, 4.0)
     uv = run(scan, "2").uv
     triangles = triangulate(uv, scan.loop)
     draw_parameters(axes[0], uv, triangles, line_width=0.08)
@@ -196,10 +201,10 @@ def figure_7(scans: dict[str, Scan]) -> Figure:
 
 
 def figure_8(scans: dict[str, Scan]) -> Figure:
-    """Draw the head with noise of a quarter and a half of the spacing, by method 2 and after the swaps."""
+    """Draw the head with noise of a tenth and a quarter of the spacing, by method 2 and after the swaps."""
     head = scans["Spock"]
-    figure, axes = panels(2, 2, 4.6)
-    for k, sigma in enumerate((0.25, 0.5)):
+    figure, axes = panels(2, 2, 4.0)
+    for k, sigma in enumerate((0.1, 0.25)):
         clean = Shape(head.points, head.truth, np.zeros((len(head.points), 2)))
         points = add_noise(clean, sigma_in_spacings=sigma).points
         layout = on_circle(chord_length_steps(points, head.loop))
@@ -223,6 +228,15 @@ FIGURES: dict[int, Callable[[dict[str, Scan]], Figure]] = {
 }
 
 
+def save(figure: Figure, path: Path) -> None:
+    """Write a picture in 128 colours, a third of its size."""
+    figure.savefig(path, dpi=DPI, facecolor="white")
+    plt.close(figure)
+    with Image.open(path) as picture:
+        few = picture.convert("RGB").quantize(128)
+    few.save(path, optimize=True)
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("out", type=Path, help="folder of the pictures")
@@ -234,8 +248,7 @@ def main() -> None:
     for number in options.only:
         figure = FIGURES[number](scans)
         path = options.out / f"figure{number}.png"
-        figure.savefig(path, dpi=DPI, facecolor="white")
-        plt.close(figure)
+        save(figure, path)
         print(path)
 
 

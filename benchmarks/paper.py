@@ -18,21 +18,19 @@ os.environ["OPENBLAS_NUM_THREADS"] = "1"
 
 import numpy as np
 import scipy.sparse as sp
-from paper_scans import DATA, METHODS, PAPER, TOLERANCE, Run, Scan, load_scans, run, stars, timed_bicgstab
+from paper_scans import DATA, METHODS, PAPER, TOLERANCE, Run, Scan, from_truth, load_scans, run, stars
 from scipy.spatial import cKDTree
 
 from pointchart.boundary.layout import chord_length_steps, on_circle
 from pointchart.certify import certify
 from pointchart.mesh import half_edges
 from pointchart.neighbors import ball, spacing
-from pointchart.parameterize import parameterize
 from pointchart.quality import least_distance
 from pointchart.shapes import Shape, add_noise
 from pointchart.solve import Solved, bicgstab, solve_fixed
 from pointchart.swaps import swap_to_delaunay
 from pointchart.triangulate import triangulate
 from pointchart.typing import UV, Floats, Indices, Loop, Points, Triangles
-from pointchart.weights import reciprocal_distance
 
 COINCIDENT = 1e-14  # parameters nearer than this differ by rounding only
 
@@ -157,9 +155,13 @@ def open_choices(scan: Scan, method: str, rotations: int) -> Iterable[tuple[str,
     yield "started at random in the square", iterations(matrix, points, rim, few, start=start)
     yield "started at (1, 1)", iterations(matrix, points, rim, few, start=np.ones_like(start))
     found = rim[stars(points, scan.radius).is_open[rim]]
-    yield f"boundary of the {len(found)} points that the hull test finds", iterations(matrix, points, found, few)
+    if len(found) >= 3:
+        yield f"boundary of the {len(found)} points that the hull test finds", iterations(matrix, points, found, few)
     for tolerance in (1e-8, 1e-9, 1e-11, 1e-12):
-        yield f"residual {tolerance:.0e}", iterations(matrix, points, rim, few, tolerance=tolerance)
+        yield (
+            f"residual {tolerance:.0e}".replace("e-0", "e-"),
+            iterations(matrix, points, rim, few, tolerance=tolerance),
+        )
 
 
 def iterations(
@@ -197,21 +199,20 @@ def noise(study: Study) -> str:
         clean = Shape(head.points, head.truth, np.zeros((len(head.points), 2)))
         noisy = add_noise(clean, sigma_in_spacings=sigma).points
         best = swap_to_delaunay(noisy, head.truth).triangles
-        rows.append((f"{sigma:g}", *mesh_by_method_2(noisy, head.loop, head.radius, best)))
+        scan = from_truth(head.label, head.name, noisy, head.loop, best, head.radius)
+        rows.append((f"{sigma:g}", *mesh_by_method_2(scan)))
     columns = ("noise / spacing", "iterations", "Delaunay: true edges", "swapped: true edges", "disc", "longest edge")
     return markdown((*columns, "folds"), rows)
 
 
-def mesh_by_method_2(points: Points, loop: Loop, radius: float, truth: Triangles) -> tuple[object, ...]:
-    layout = on_circle(chord_length_steps(points, loop))
-    around = ball(points, radius)
-    found = parameterize(points, loop, layout, around, weights=reciprocal_distance, solver=timed_bicgstab([]))
-    triangles = triangulate(found.uv, loop)
-    swapped = swap_to_delaunay(points, triangles).triangles
-    proof = certify(points, swapped, loop=loop)
-    share = (f"{shared_edges(t, truth, len(points)):.3f}" for t in (triangles, swapped))
+def mesh_by_method_2(scan: Scan) -> tuple[object, ...]:
+    found = run(scan, "2")
+    triangles = triangulate(found.uv, scan.loop)
+    swapped = swap_to_delaunay(scan.points, triangles).triangles
+    proof = certify(scan.points, swapped, loop=scan.loop)
+    share = (f"{shared_edges(t, scan.truth, len(scan.points)):.3f}" for t in (triangles, swapped))
     longest = f"{proof.longest_edge_over_spacing:.1f} spacings"
-    return (both(found.solution.iterations, "d"), *share, "yes" if proof.is_disc else "no", longest, proof.folds)
+    return (both(found.iterations, "d"), *share, "yes" if proof.is_disc else "no", longest, proof.folds)
 
 
 def shared_edges(triangles: Triangles, truth: Triangles, n_points: int) -> float:

@@ -1,1 +1,109 @@
-"""From an unorganized point cloud of one surface patch to planar parameters and a certified disc mesh."""
+"""From an unorganized point cloud of one surface patch to planar parameters and a certified disc mesh.
+
+The names below are the public interface, in the order of the pipeline.
+"""
+
+from .boundary import (
+    Candidate,
+    FoundBoundary,
+    angular_gaps,
+    centripetal_steps,
+    chord_length_on_circle,
+    chord_length_steps,
+    find_boundary,
+    hull_test,
+    on_circle,
+    on_polygon,
+    on_square,
+    order_by_halves,
+    quarter_places,
+    sharpest_places,
+    uniform_steps,
+)
+from .certify import Certificate, certify
+from .clock import StageClock
+from .errors import FormatError, InputError, PointchartError, SolveError
+from .io import Scan, read_loop, read_scan, write_loop, write_mesh, write_uv
+from .links import Links, distrust_far, link_stars, trusted
+from .mesh import boundary_loops, one_rings
+from .neighbors import Neighborhoods, ball, delaunay_star, nearest, normals, spacing
+from .parameterize import Parameterization, parameterize
+from .pipeline import Reconstruction, parameterize_scan, reconstruct, survey_scan, uv_of_points, uv_on_mesh
+from .prepare import Cloud, prepare
+from .quality import l2_stretch, least_distance, radius_ratios, stretches
+from .solve import Solution, bicgstab, cholesky, conjugate_gradient, direct, multigrid, solve_fixed
+from .swaps import Swapped, keep_edges, swap_to_delaunay
+from .triangulate import triangulate
+from .weights import mean_value, reciprocal_distance, shape_preserving, uniform
+
+__all__ = [
+    "Candidate",
+    "Certificate",
+    "Cloud",
+    "FormatError",
+    "FoundBoundary",
+    "InputError",
+    "Links",
+    "Neighborhoods",
+    "Parameterization",
+    "PointchartError",
+    "Reconstruction",
+    "Scan",
+    "Solution",
+    "SolveError",
+    "StageClock",
+    "Swapped",
+    "angular_gaps",
+    "ball",
+    "bicgstab",
+    "boundary_loops",
+    "centripetal_steps",
+    "certify",
+    "cholesky",
+    "chord_length_on_circle",
+    "chord_length_steps",
+    "conjugate_gradient",
+    "delaunay_star",
+    "direct",
+    "distrust_far",
+    "find_boundary",
+    "hull_test",
+    "keep_edges",
+    "l2_stretch",
+    "least_distance",
+    "link_stars",
+    "mean_value",
+    "multigrid",
+    "nearest",
+    "normals",
+    "on_circle",
+    "on_polygon",
+    "on_square",
+    "one_rings",
+    "order_by_halves",
+    "parameterize",
+    "parameterize_scan",
+    "prepare",
+    "quarter_places",
+    "radius_ratios",
+    "read_loop",
+    "read_scan",
+    "reciprocal_distance",
+    "reconstruct",
+    "shape_preserving",
+    "sharpest_places",
+    "solve_fixed",
+    "spacing",
+    "stretches",
+    "survey_scan",
+    "swap_to_delaunay",
+    "triangulate",
+    "trusted",
+    "uniform",
+    "uniform_steps",
+    "uv_of_points",
+    "uv_on_mesh",
+    "write_loop",
+    "write_mesh",
+    "write_uv",
+]

@@ -1,42 +1,38 @@
-"""Which side of a mesh is outside."""
+"""Which way a boundary runs: anticlockwise seen from the outside of its patch."""
 
 import numpy as np
 
-from .quality import area_vectors
-from .typing import Loop, Points, Triangles
+from .boundary import reversed_loop
+from .typing import Loop, Points
 
-NEARLY_FLAT = 0.5
+LEVEL = 0.15  # mean height over the root of the loop's area, under which a patch counts as level, such as terrain
 
 
-def faces_inwards(points: Points, triangles: Triangles, loop: Loop) -> bool:
-    """Tell whether the triangles of a patch face its inside and should be turned round.
+def anticlockwise(points: Points, loop: Loop) -> Loop:
+    """Turn a loop so that it runs anticlockwise seen from the outside of the patch.
 
-    A patch bulges towards its outside: the volume between the patch and the middle of its boundary is positive seen from
-    there. A nearly level height field, such as terrain, has its outside above.
+    A point cloud has no side of its own. The outside is taken to be where the patch bulges to from the plane of its
+    boundary, and above for a nearly level patch, such as terrain or a relief that lies flat.
 
     Parameters
     ----------
     points : (n, 3) array
-    triangles : (m, 3) int array
-        Consistently oriented.
-    loop : (b,) int array
-        Boundary.
+    loop : (b,) int64 array
+        Boundary points in order, in either direction.
 
     Returns
     -------
-    bool
+    (b,) int64 array, beginning with the same point.
 
     Examples
     --------
     >>> tent = np.array([[1.0, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0], [0, 0, 2]])
-    >>> faces = np.array([[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]])
-    >>> faces_inwards(tent, faces, np.arange(4)), faces_inwards(tent, faces[:, ::-1], np.arange(4))
-    (False, True)
+    >>> anticlockwise(tent, np.array([0, 3, 2, 1]))
+    array([0, 1, 2, 3])
     """
-    vectors = area_vectors(points, triangles)
-    total = vectors.sum(axis=0)
-    area = np.linalg.norm(vectors, axis=1).sum()
-    if abs(total[2]) > NEARLY_FLAT * area:
-        return bool(total[2] < 0.0)
-    apex = points[loop].mean(axis=0)
-    return bool(np.einsum("ij,ij->", points[triangles].mean(axis=1) - apex, vectors) < 0.0)
+    corners = points[loop] - points[loop].mean(axis=0)
+    area = 0.5 * np.cross(corners, np.roll(corners, -1, axis=0)).sum(axis=0)
+    size = np.linalg.norm(area)
+    bulge = (points - points[loop].mean(axis=0)).mean(axis=0) @ area
+    is_level = abs(bulge) <= LEVEL * size**1.5 and abs(area[2]) > 0.5 * size
+    return reversed_loop(loop) if (area[2] if is_level else bulge) < 0.0 else loop

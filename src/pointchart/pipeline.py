@@ -6,8 +6,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ._check import check_loop
-from .boundary import Candidate, chord_length_steps, find_boundary, on_circle, reversed_loop
+from ._check import check_loop, check_points
+from .boundary import Candidate, chord_length_on_circle, find_boundary
 from .bridges import Bridge, find_bridges
 from .certify import Certificate, certify
 from .clock import StageClock
@@ -16,7 +16,7 @@ from .links import link_stars
 from .mesh import one_rings
 from .neighbors import Neighborhoods, break_ties, delaunay_star, nearest
 from .neighbors import spacing as local_spacing
-from .orient import faces_inwards
+from .orient import anticlockwise
 from .parameterize import Parameterization, parameterize
 from .prepare import Cloud, prepare
 from .refine import Meshed, SwapRule, mesh_once, mesh_repeatedly
@@ -29,8 +29,7 @@ NEAREST = 20
 SECOND_BOUNDARY = 0.25  # a gap with this share of the boundary's length and points may as well be the boundary
 
 Connect = Callable[[Points], Neighborhoods]
-StepRule = Callable[[Points, Loop], Floats]
-LayoutRule = Callable[[Floats], UV]
+LayoutRule = Callable[[Points, Loop], UV]
 ChartRule = Callable[[Points, UV, Loop, Meshed, Solver], Parameterization]
 
 
@@ -67,19 +66,46 @@ class Evidence:
     Attributes
     ----------
     candidates : list of Candidate
-        Loops that the boundary was chosen from, in units of half the scan's extent; empty if it was given.
+        Loops that the boundary was chosen from; empty if it was given.
     bridges : list of Bridge
         Patches of the mesh that bridge gaps of the scan.
     meshed : Meshed
-        The first map, the swaps and the rounds.
+        The first map, the swaps and the rounds, in the numbering of the prepared cloud.
     chart : Parameterization
-        The map that `uv` comes from.
+        The map that `uv` comes from, in the numbering of the prepared cloud.
     """
 
     candidates: list[Candidate]
     bridges: list[Bridge]
     meshed: Meshed
     chart: Parameterization
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Survey:
+    """What is known of a scan before it is mapped.
+
+    Attributes
+    ----------
+    scan : (N, 3) float64
+        The points as given.
+    cloud : Cloud
+    star : Neighborhoods
+        Delaunay stars of the cloud's points.
+    spacing : (n,) float64
+        Local spacing, in the unit of the cloud.
+    loop : (b,) int64
+        Boundary points of the cloud, anticlockwise.
+    candidates : list of Candidate
+        Loops that the boundary was chosen from; empty if it was given.
+    """
+
+    scan: Points
+    cloud: Cloud
+    star: Neighborhoods
+    spacing: Floats
+    loop: Loop
+    candidates: list[Candidate]
 
 
 def uv_on_mesh(points: Points, boundary_uv: UV, loop: Loop, meshed: Meshed, solver: Solver) -> Parameterization:
@@ -100,8 +126,7 @@ def reconstruct(
     connect: Connect | None = None,
     weights: WeightScheme = mean_value,
     swap: SwapRule = swap_to_delaunay,
-    steps: StepRule = chord_length_steps,
-    layout: LayoutRule = on_circle,
+    layout: LayoutRule = chord_length_on_circle,
     chart: ChartRule = uv_on_mesh,
     solver: Solver | None = None,
     clock: StageClock | None = None,
@@ -115,16 +140,15 @@ def reconstruct(
     loop : (b,) int array, optional
         Boundary rows in order, in either direction; found, if not given.
     connect : callable, optional
-        ``connect(points) -> Neighborhoods``, as for the paper's methods, to be used with `weights`. If not given,
-        Delaunay stars are linked by their agreement, and links that the mesh contradicts lose their trust.
+        ``connect(points) -> Neighborhoods``, as for the paper's methods, to be used with `weights`; it is called with the
+        distinct points in spatial order, in the unit of the scan. If not given, Delaunay stars are linked by their agreement, and links that the mesh contradicts lose their trust.
     weights : callable
         ``weights(points, neighborhoods) -> (nnz,)``; used with `connect` only.
     swap : callable
         ``swap(points, triangles) -> Swapped``: `swap_to_delaunay` or `keep_edges`.
-    steps : callable
-        ``steps(points, loop) -> (b,)``: spacing along the boundary.
     layout : callable
-        ``layout(steps) -> (b, 2)``: the convex domain of `uv`. The first map is always made on the circle.
+        ``layout(points, loop) -> (b, 2)``: where the boundary goes on the convex domain of `uv`; called with the scan and
+        its boundary rows, anticlockwise. The mesh is always made from a map to the circle.
     chart : callable
         `uv_on_mesh`, one-to-one, or `uv_of_points`, the paper's own parameters.
     solver : callable, optional
@@ -155,67 +179,131 @@ def reconstruct(
     (True, True)
     """
     clock, solver = clock or StageClock(), solver or Direct()
+    survey = survey_scan(points, loop, clock=clock)
+    cloud, rim = survey.cloud, survey.loop
+    with points_called(cloud.rows):
+        meshed = _mesh(survey, connect, weights, swap, solver, clock)
+        bridges = find_bridges(cloud.points, meshed.swapped.triangles, survey.spacing)
+        if loop is None:
+            _check_bridges(survey.candidates[0], bridges)
+        with clock("parameters"):
+            boundary_uv = layout(survey.scan, cloud.rows[rim])
+            meshed = replace(meshed, swapped=swap_off_sides(meshed.swapped, rim, boundary_uv))
+            mapped = chart(cloud.points, boundary_uv, rim, meshed, solver)
+        with clock("certify"):
+            proof = certify(cloud.points, meshed.swapped.triangles, uv=mapped.uv, loop=rim, spacing=survey.spacing)
+            _check_proof(proof, chart)
+    return _in_rows(cloud, rim, mapped, proof, Evidence(survey.candidates, bridges, meshed, mapped))
+
+
+def survey_scan(points: ArrayLike, loop: ArrayLike | None = None, *, clock: StageClock | None = None) -> Survey:
+    """Prepare a scan, find its Delaunay stars and its boundary: what every reconstruction begins with.
+
+    Parameters
+    ----------
+    points : (N, 3) array
+        The scan, in any unit and at any offset. Repeated points are merged.
+    loop : (b,) int array, optional
+        Boundary rows in order, in either direction; found, if not given.
+    clock : StageClock, optional
+
+    Returns
+    -------
+    Survey
+
+    Raises
+    ------
+    InputError
+        If the points are no single patch, or the boundary is at fault.
+
+    Examples
+    --------
+    >>> from pointchart import shapes
+    >>> sheet = shapes.grid(12, 9)
+    >>> survey = survey_scan(sheet.points)
+    >>> sorted(survey.cloud.rows[survey.loop]) == sorted(sheet.boundary)
+    True
+    """
+    clock = clock or StageClock()
     with clock("prepare"):
-        cloud = prepare(points)
+        scan = check_points(points)
+        cloud = prepare(scan)
     with points_called(cloud.rows):
         with clock("neighbours"):
             around = nearest(cloud.points, NEAREST)
             spacing = local_spacing(cloud.points, around=around)
             star = delaunay_star(break_ties(cloud.points, spacing), around)
         with clock("boundary"):
-            rim, candidates = _boundary(cloud, loop, star, spacing)
-        meshed = _mesh(cloud.points, rim, star, connect, weights, steps, swap, solver, clock)
-        rim, meshed = _outwards(cloud, rim, meshed)
-        bridges = find_bridges(cloud.points, meshed.swapped.triangles, spacing)
-        if loop is None:
-            _check_bridges(candidates[0], bridges)
-        with clock("parameters"):
-            boundary_uv = layout(steps(cloud.points, rim))
-            meshed = replace(meshed, swapped=swap_off_sides(meshed.swapped, rim, boundary_uv))
-            mapped = chart(cloud.points, boundary_uv, rim, meshed, solver)
-        with clock("certify"):
-            proof = certify(cloud.points, meshed.swapped.triangles, uv=mapped.uv, loop=rim, spacing=spacing)
-            _check_proof(proof, chart)
-    return _in_rows(cloud, rim, mapped, proof, Evidence(candidates, bridges, meshed, mapped))
+            if loop is None:
+                found = find_boundary(cloud.points, star, spacing)
+                rim, candidates = found.loop, found.candidates
+            else:
+                given = cloud.places[check_loop(loop, len(cloud.places))]
+                rim, candidates = check_loop(given, len(cloud.points)), []
+            rim = anticlockwise(cloud.points, rim)
+    return Survey(scan, cloud, star, spacing, rim, candidates)
 
 
-def _boundary(
-    cloud: Cloud, loop: ArrayLike | None, star: Neighborhoods, spacing: Floats
-) -> tuple[Loop, list[Candidate]]:
-    if loop is None:
-        found = find_boundary(cloud.points, star, spacing)
-        return found.loop, found.candidates
-    return check_loop(cloud.places[check_loop(loop, len(cloud.places))], len(cloud.points)), []
+def parameterize_scan(
+    points: ArrayLike,
+    loop: ArrayLike | None = None,
+    *,
+    connect: Connect | None = None,
+    weights: WeightScheme = mean_value,
+    layout: LayoutRule = chord_length_on_circle,
+    solver: Solver | None = None,
+    clock: StageClock | None = None,
+) -> tuple[Survey, Parameterization]:
+    """Give a scan the parameters of the paper, without a mesh.
+
+    Takes what `reconstruct` takes; `connect` gives the Delaunay stars of the 20 nearest points, if not given.
+
+    Returns
+    -------
+    Survey
+    Parameterization
+        In the order of ``survey.cloud``; ``cloud.rows`` are the rows of the scan.
+
+    Examples
+    --------
+    >>> from pointchart import shapes
+    >>> survey, mapped = parameterize_scan(shapes.grid(12, 9).points)
+    >>> bool(np.linalg.norm(mapped.uv, axis=1).max() < 1.0 + 1e-12)
+    True
+    """
+    clock = clock or StageClock()
+    survey = survey_scan(points, loop, clock=clock)
+    cloud, rim = survey.cloud.points, survey.loop
+    with points_called(survey.cloud.rows):
+        with clock("neighbours"):
+            neighborhoods = (connect or _default_stars)(cloud * survey.cloud.scale)
+        with clock("map"):
+            boundary_uv = layout(survey.scan, survey.cloud.rows[rim])
+            mapped = parameterize(cloud, rim, boundary_uv, neighborhoods, weights=weights, solver=solver)
+    return survey, mapped
+
+
+def _default_stars(points: Points) -> Neighborhoods:
+    return delaunay_star(points, nearest(points, NEAREST))
 
 
 def _mesh(
-    points: Points,
-    rim: Loop,
-    star: Neighborhoods,
+    survey: Survey,
     connect: Connect | None,
     weights: WeightScheme,
-    steps: StepRule,
     swap: SwapRule,
     solver: Solver,
     clock: StageClock,
 ) -> Meshed:
-    circle = on_circle(steps(points, rim))
+    points, rim = survey.cloud.points, survey.loop
+    circle = chord_length_on_circle(points, rim)
     if connect is None:
         with clock("neighbours"):
-            links = link_stars(star)
+            links = link_stars(survey.star)
         return mesh_repeatedly(points, rim, circle, links, swap=swap, solver=solver, clock=clock)
     with clock("neighbours"):
-        neighborhoods = connect(points)
+        neighborhoods = connect(points * survey.cloud.scale)
     return mesh_once(points, rim, circle, neighborhoods, weights=weights, swap=swap, solver=solver, clock=clock)
-
-
-def _outwards(cloud: Cloud, rim: Loop, meshed: Meshed) -> tuple[Loop, Meshed]:
-    """Turn the mesh and its boundary round if they face inwards."""
-    triangles = meshed.swapped.triangles
-    if not faces_inwards(cloud.points, triangles, rim):
-        return rim, meshed
-    turned = replace(meshed.swapped, triangles=np.ascontiguousarray(triangles[:, ::-1]))
-    return reversed_loop(rim), replace(meshed, swapped=turned)
 
 
 def _check_bridges(chosen: Candidate, bridges: list[Bridge]) -> None:
@@ -247,5 +335,11 @@ def _in_rows(cloud: Cloud, rim: Loop, mapped: Parameterization, proof: Certifica
     order = np.argsort(cloud.rows)
     vertex = np.empty_like(order)
     vertex[order] = np.arange(len(order))
+    bridges = [
+        replace(bridge, points=vertex[bridge.points], rim_length=cloud.scale * bridge.rim_length)
+        for bridge in evidence.bridges
+    ]
+    candidates = [replace(c, loop=vertex[c.loop], length=cloud.scale * c.length) for c in evidence.candidates]
+    evidence = replace(evidence, bridges=bridges, candidates=candidates)
     triangles = vertex[evidence.meshed.swapped.triangles]
     return Reconstruction(cloud.rows[order], triangles, mapped.uv[order], vertex[rim], proof, evidence)

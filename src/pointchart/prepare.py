@@ -22,11 +22,14 @@ class Cloud:
         The row of the scan that each point was read from: the first one, where rows repeat a point.
     places : (N,) int64
         The point that each of the N rows of the scan gave.
+    scale : float
+        Length 1 of the cloud in the unit of the scan; a power of two.
     """
 
     points: Points
     rows: Indices
     places: Indices
+    scale: float
 
     @property
     def n_repeated(self) -> int:
@@ -65,11 +68,12 @@ def prepare(points: ArrayLike) -> Cloud:
     distinct = check_points(scan[first])
     middle = (distinct.min(axis=0) + distinct.max(axis=0)) / 2.0
     centred = distinct - distinct[np.argmin(np.abs(distinct - middle).max(axis=1))]
-    unit = np.ldexp(centred, -int(np.ceil(np.log2(np.abs(centred).max()))))
+    exponent = int(np.ceil(np.log2(np.abs(centred).max())))
+    unit = np.ldexp(centred, -exponent)
     order = morton_order(unit)
     place = np.empty_like(order)
     place[order] = np.arange(len(order))
-    return Cloud(np.ascontiguousarray(unit[order]), first[order], place[group])
+    return Cloud(np.ascontiguousarray(unit[order]), first[order], place[group], 2.0**exponent)
 
 
 def _distinct_rows(points: Points) -> tuple[Indices, Indices]:

@@ -9,7 +9,7 @@ import scipy.sparse as sp
 import scipy.sparse.linalg as sla
 
 from ._kernels.graphs import symmetrizer
-from .errors import SolveError
+from .errors import SolveError, points_called
 from .typing import Floats, Indices
 
 TOLERANCE = 1e-12
@@ -94,13 +94,19 @@ def solve_fixed(matrix: sp.csr_array, fixed: Indices, values: Floats, *, solver:
     right = rows @ full
     left = sp.csr_array(sp.eye_array(len(free), format="csr") - rows[:, free])
     chosen = solver or (direct if len(free) <= DIRECT_LIMIT else multigrid)
-    solution, iterations = chosen(left, right)
+    with points_called(free):
+        solution, iterations = chosen(left, right)
     size = np.linalg.norm(right, axis=0)
     residual = float(np.max(np.linalg.norm(right - left @ solution, axis=0) / np.where(size > 0.0, size, 1.0)))
     if not np.isfinite(residual):
-        raise SolveError(f"{chosen.__name__} gave no finite solution of {len(free)} unknowns; try another solver")
+        raise SolveError(f"{_name(chosen)} gave no finite solution of {len(free)} unknowns; try another solver")
     full[free] = solution
-    return Solution(full, residual, iterations, chosen.__name__, len(free), left.nnz)
+    return Solution(full, residual, iterations, _name(chosen), len(free), left.nnz)
+
+
+def _name(solver: Solver) -> str:
+    """Return the name of a solver, whose options `functools.partial` may have bound."""
+    return str(getattr(getattr(solver, "func", solver), "__name__", type(solver).__name__))
 
 
 class Direct:
@@ -187,12 +193,21 @@ def symmetrize(left: sp.csr_array) -> tuple[sp.csr_array, Floats]:
         order, parent = sp.csgraph.breadth_first_order(left, seed, directed=False)
         odd = symmetrizer(order, parent, left.indptr, left.indices, left.data, scale)
         if odd >= 0:
-            raise SolveError(f"unknowns {odd} and {parent[odd]} are not neighbours of each other, so the matrix has no "
-                             "symmetric form (4.5); use balls of constant radius or another solver")
+            raise SolveError(
+                "points {one} and {other} are not neighbours of each other, so the matrix has no symmetric form (4.5); use "
+                "balls of constant radius or another solver",
+                one=odd,
+                other=parent[odd],
+            )
     symmetric = sp.csr_array(sp.diags_array(scale) @ left)
-    skew = abs(symmetric - symmetric.T).max()
-    if skew > 1e-9 * abs(symmetric).max():
-        raise SolveError(f"the weights have no symmetric form (4.5): pairs differ by up to {skew:.2g}; use another solver")
+    skew = abs(symmetric - symmetric.T).tocoo()
+    worst = int(np.argmax(skew.data)) if skew.nnz else -1
+    if worst >= 0 and not skew.data[worst] <= 1e-9 * abs(symmetric).max():
+        raise SolveError(
+            "the weights have no symmetric form (4.5): those of points {pair} for each other "
+            f"differ by {skew.data[worst]:.2g} after scaling; use another solver",
+            pair=[skew.row[worst], skew.col[worst]],
+        )
     return symmetric, scale
 
 

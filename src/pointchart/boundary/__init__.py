@@ -4,10 +4,12 @@ from .detect import angular_gaps, hull_test
 from .find import Candidate, FoundBoundary, find_boundary
 from .layout import (
     centripetal_steps,
+    chord_length_on_circle,
     chord_length_steps,
     on_circle,
     on_polygon,
     on_square,
+    places_of,
     quarter_places,
     reversed_loop,
     sharpest_places,
@@ -22,6 +24,7 @@ __all__ = [
     "agreed_triangles",
     "angular_gaps",
     "centripetal_steps",
+    "chord_length_on_circle",
     "chord_length_steps",
     "find_boundary",
     "hull_test",
@@ -29,6 +32,7 @@ __all__ = [
     "on_polygon",
     "on_square",
     "order_by_halves",
+    "places_of",
     "quarter_places",
     "reversed_loop",
     "rims",

@@ -72,6 +72,17 @@ def on_circle(steps: Floats) -> UV:
     return np.column_stack([np.cos(angle), np.sin(angle)])
 
 
+def chord_length_on_circle(points: ArrayLike, loop: ArrayLike) -> UV:
+    """Lay a loop out on the unit circle by chord length, as in all examples of the paper.
+
+    Examples
+    --------
+    >>> chord_length_on_circle([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], range(4)).round(12)[2]
+    array([-1.,  0.])
+    """
+    return on_circle(chord_length_steps(points, loop))
+
+
 def on_polygon(steps: Floats, vertices: ArrayLike, corners: Indices) -> UV:
     """Lay the loop out on a convex polygon: on each side, chords in proportion to the steps.
 
@@ -152,6 +163,28 @@ def quarter_places(steps: Floats) -> Indices:
         free = np.arange(places[-1] + 1, b - 3 + k)
         places.append(int(free[np.argmin(np.abs(start[free] - k * lengths.sum() / 4))]))
     return np.array(places)
+
+
+def places_of(corners: ArrayLike, loop: ArrayLike) -> Indices:
+    """Find the places of boundary points on the loop, in the order of the loop, the first given one first.
+
+    Raises
+    ------
+    InputError
+        If a corner is not on the loop.
+
+    Examples
+    --------
+    >>> places_of([7, 3, 9], [3, 5, 7, 9])
+    array([2, 3, 0])
+    """
+    rim, names = np.asarray(loop), np.asarray(corners)
+    missing = names[~np.isin(names, rim)]
+    if len(missing):
+        raise InputError("corners {missing} are not on the boundary; choose boundary points", missing=missing)
+    places = np.array([int(np.flatnonzero(rim == name)[0]) for name in names])
+    ordered = np.sort(places)
+    return np.roll(ordered, -int(np.flatnonzero(ordered == places[0])[0]))
 
 
 def sharpest_places(points: ArrayLike, loop: ArrayLike, count: int = 4) -> Indices:

@@ -1,0 +1,121 @@
+"""The words of the command line, and the functions of the library that they name."""
+
+from collections.abc import Callable
+from enum import StrEnum
+from functools import partial
+
+from .. import boundary, neighbors, pipeline, swaps, weights
+from ..errors import InputError
+from ..neighbors import Neighborhoods
+from ..pipeline import ChartRule, Connect, LayoutRule
+from ..refine import SwapRule
+from ..typing import UV, Floats, Loop, Points
+from ..weights import WeightScheme
+
+
+class Neighbors(StrEnum):
+    """Kinds of neighbourhoods."""
+
+    delaunay = "delaunay"
+    nearest = "nearest"
+    ball = "ball"
+
+
+class Weighting(StrEnum):
+    """Kinds of weights."""
+
+    mean_value = "mean-value"
+    shape_preserving = "shape-preserving"
+    reciprocal = "reciprocal"
+    uniform = "uniform"
+
+
+class Domain(StrEnum):
+    """Kinds of convex domains."""
+
+    circle = "circle"
+    square = "square"
+
+
+class Spacing(StrEnum):
+    """Kinds of spacing along the boundary."""
+
+    chord = "chord"
+    uniform = "uniform"
+    centripetal = "centripetal"
+
+
+class Swap(StrEnum):
+    """Kinds of edge swaps."""
+
+    delaunay = "delaunay"
+    none = "none"
+
+
+class Chart(StrEnum):
+    """Kinds of parameters."""
+
+    mesh = "mesh"
+    paper = "paper"
+
+
+WEIGHTS: dict[Weighting, WeightScheme] = {
+    Weighting.mean_value: weights.mean_value,
+    Weighting.shape_preserving: weights.shape_preserving,
+    Weighting.reciprocal: weights.reciprocal_distance,
+    Weighting.uniform: weights.uniform,
+}
+STEPS: dict[Spacing, Callable[[Points, Loop], Floats]] = {
+    Spacing.chord: boundary.chord_length_steps,
+    Spacing.uniform: boundary.uniform_steps,
+    Spacing.centripetal: boundary.centripetal_steps,
+}
+SWAPS: dict[Swap, SwapRule] = {Swap.delaunay: swaps.swap_to_delaunay, Swap.none: swaps.keep_edges}
+CHARTS: dict[Chart, ChartRule] = {Chart.mesh: pipeline.uv_on_mesh, Chart.paper: pipeline.uv_of_points}
+
+
+def connect_rule(kind: Neighbors | None, k: int | None, radius: float | None) -> Connect | None:
+    """Return the function that finds neighbourhoods as asked for; None leaves the choice to the library."""
+    if kind is None and k is None and radius is None:
+        return None
+    if radius is not None and not radius > 0.0:
+        raise InputError(f"--radius is {radius:g}; it has to be positive, some 2 to 4 times the spacing of the points")
+    if kind is Neighbors.ball:
+        if k is not None or radius is None:
+            raise InputError("--neighbors ball needs --radius and no -k")
+        return partial(neighbors.ball, radius=radius)
+    if radius is not None and k is not None:
+        raise InputError("-k and --radius exclude each other: candidates are either the k nearest or those in a ball")
+    around: Callable[[Points], Neighborhoods] = (
+        partial(neighbors.nearest, k=pipeline.NEAREST if k is None else k)
+        if radius is None
+        else partial(neighbors.ball, radius=radius)
+    )
+    if kind is Neighbors.nearest:
+        if radius is not None:
+            raise InputError("--neighbors nearest takes -k and no --radius; for a ball say --neighbors ball")
+        return around
+    return lambda points: neighbors.delaunay_star(points, around(points))
+
+
+def layout_rule(domain: Domain, spacing: Spacing, corners: str | None) -> LayoutRule:
+    """Return the function that lays the boundary out as asked for."""
+    steps = STEPS[spacing]
+    if domain is Domain.circle:
+        if corners is not None:
+            raise InputError("--corners needs --domain square")
+        return lambda points, loop: boundary.on_circle(steps(points, loop))
+    named = None if corners is None else _corner_names(corners)
+
+    def square(points: Points, loop: Loop) -> UV:
+        places = boundary.sharpest_places(points, loop) if named is None else boundary.places_of(named, loop)
+        return boundary.on_square(steps(points, loop), places)
+
+    return square
+
+
+def _corner_names(text: str) -> list[int]:
+    words = text.split(",")
+    if len(words) != 4 or not all(word.strip().isdigit() for word in words):
+        raise InputError(f"--corners is '{text}'; four boundary points are needed, such as 12,480,971,1500")
+    return [int(word) for word in words]

@@ -1,0 +1,53 @@
+"""Word of the stages on stderr while a run goes on."""
+
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from ..clock import StageClock
+
+# Usual share of the whole time that is over when a stage begins; repeated rounds begin the same stages again.
+OVER_BY = {
+    "prepare": 0,
+    "neighbours": 3,
+    "boundary": 20,
+    "map": 40,
+    "triangulate": 65,
+    "swap": 72,
+    "compare": 75,
+    "parameters": 78,
+    "certify": 93,
+}
+
+
+@contextmanager
+def staged(quiet: bool) -> Iterator[StageClock]:
+    """Give a clock that shows stages as they begin: a bar with an estimate on a terminal, nothing if quiet or piped."""
+    if not quiet:
+        _warn_of_first_run()
+    if quiet or not sys.stderr.isatty():
+        yield StageClock()
+        return
+    from rich.console import Console
+    from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn, TimeElapsedColumn, TimeRemainingColumn
+
+    columns = (
+        SpinnerColumn(),
+        TextColumn("{task.description:12}"),
+        BarColumn(),
+        TimeElapsedColumn(),
+        TextColumn("left about"),
+        TimeRemainingColumn(),
+    )
+    with Progress(*columns, console=Console(stderr=True), transient=True) as progress:
+        task = progress.add_task("reading", total=100)
+        yield StageClock(lambda name: progress.update(task, description=name, completed=OVER_BY[name]))
+
+
+def _warn_of_first_run() -> None:
+    """Say why the first run on a machine waits: the kernels are compiled once and kept."""
+    from .._kernels import stars
+
+    if not any(Path(stars.delaunay_stars._cache.cache_path).glob("stars.delaunay_stars*.nbi")):
+        print("pointchart: first run on this machine: compiling its kernels, some 20 seconds, once", file=sys.stderr)

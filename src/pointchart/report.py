@@ -1,0 +1,154 @@
+"""Results as text and as the JSON of a run; computes nothing but counts and percentiles."""
+
+import json
+import resource
+import sys
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from .bridges import Bridge
+from .certify import Certificate
+from .clock import StageClock
+from .io import replacing
+from .pipeline import Reconstruction
+from .quality import l2_stretch, least_distance, radius_ratios
+from .solve import Solution
+from .typing import Points
+
+CHECKS = (
+    ("every point used", "unused_points", "{} unused"),
+    ("edges manifold, orientation consistent", "overfull_edges", "{} edges at fault"),
+    ("one fan a vertex", "pinched_points", "{} pinched vertices"),
+)
+
+
+def certificate_lines(proof: Certificate) -> list[str]:
+    """Write a certificate as a checklist, one check a line."""
+    lines = [_line(getattr(proof, field) == 0, name, text, getattr(proof, field)) for name, field, text in CHECKS]
+    lines.append(_line(proof.euler == 1, "Euler characteristic 1", "it is {}", proof.euler))
+    lines.append(_line(proof.boundary_loops == 1, "one boundary loop", "there are {}", proof.boundary_loops))
+    if proof.boundary_as_given is not None:
+        lines.append(_line(proof.boundary_as_given, "boundary as asked for", "another loop", 0))
+    if proof.coinciding_uv is not None:
+        lines.append(_line(proof.coinciding_uv == 0, "uv distinct", "{} points coincide", proof.coinciding_uv))
+        lines.append(
+            _line(
+                proof.flat_or_folded_uv == 0,
+                "uv one-to-one, every triangle exactly positive",
+                "{} triangles flat or folded",
+                proof.flat_or_folded_uv,
+            )
+        )
+    lines.append(f"[--] longest edge {proof.longest_edge_over_spacing:.1f} local spacings, {proof.folds} folds")
+    return lines
+
+
+def summary(proof: Certificate) -> str:
+    """Say in one sentence what was proved."""
+    if not proof.is_disc:
+        return f"no disc: {', '.join(proof.faults)}"
+    text = f"a certified disc: {proof.n_points} points, {proof.n_triangles} triangles"
+    if proof.coinciding_uv is None:
+        return text
+    return text + (", uv one-to-one" if proof.is_one_to_one else f", uv folded at {proof.flat_or_folded_uv} triangles")
+
+
+def run_report(
+    scan: Points, result: Reconstruction, clock: StageClock, options: dict[str, Any], *, boundary_given: bool
+) -> dict[str, Any]:
+    """Gather what a run did, as plain data for JSON.
+
+    Parameters
+    ----------
+    scan : (N, 3) array
+        The points as read.
+    result : Reconstruction
+    clock : StageClock
+    options : dict
+        As the user gave them.
+    boundary_given : bool
+
+    Returns
+    -------
+    dict
+    """
+    points = scan[result.rows]
+    solution = result.evidence.meshed.first_map.solution
+    ratios = radius_ratios(points, result.triangles)
+    steps = np.linalg.norm(points[result.loop] - points[np.roll(result.loop, -1)], axis=1)
+    return {
+        "points": {"read": len(scan), "distinct": len(points), "repeated": len(scan) - len(points)},
+        "options": options,
+        "stages": [{"name": name, "seconds": round(seconds, 4)} for name, seconds in clock.seconds.items()],
+        "peak_memory_mb": peak_memory_mb(),
+        "boundary": {
+            "points": len(result.loop),
+            "length": float(steps.sum()),
+            "origin": "given" if boundary_given else "found",
+            "gaps": [_gap(bridge) for bridge in result.evidence.bridges],
+        },
+        "solve": solve_report(solution),
+        "swaps": {
+            "count": result.evidence.meshed.swapped.n_swaps,
+            "settled": result.evidence.meshed.swapped.is_settled,
+            "contradicted_links": [round(share, 6) for share in result.evidence.meshed.contradicted],
+        },
+        "certificate": certificate_report(result.certificate),
+        "quality": {
+            "radius_ratio": {"least": float(ratios.min()), "median": float(np.median(ratios))},
+            "l2_stretch": l2_stretch(points, result.triangles, result.uv),
+            "least_uv_distance": least_distance(result.uv),
+        },
+    }
+
+
+def certificate_report(proof: Certificate) -> dict[str, Any]:
+    """Return a certificate as plain data for JSON."""
+    return {
+        "disc": proof.is_disc,
+        "every_point_used": proof.unused_points == 0,
+        "euler": proof.euler,
+        "boundary_loops": proof.boundary_loops,
+        "boundary_as_given": proof.boundary_as_given,
+        "uv_distinct": None if proof.coinciding_uv is None else proof.coinciding_uv == 0,
+        "uv_positive": None if proof.flat_or_folded_uv is None else proof.flat_or_folded_uv == 0,
+        "coinciding_uv": proof.coinciding_uv,
+        "flat_or_folded_uv": proof.flat_or_folded_uv,
+        "longest_edge_over_spacing": round(proof.longest_edge_over_spacing, 3),
+        "folds": proof.folds,
+        "points": proof.n_points,
+        "triangles": proof.n_triangles,
+    }
+
+
+def solve_report(solution: Solution) -> dict[str, Any]:
+    """Return what is known of a linear solve as plain data for JSON."""
+    return {
+        "unknowns": solution.unknowns,
+        "nonzeros": solution.nonzeros,
+        "method": solution.method,
+        "iterations": list(solution.iterations),
+        "residual": solution.residual,
+    }
+
+
+def write_json(path: Path, report: dict[str, Any]) -> None:
+    """Write a report as JSON."""
+    with replacing(path) as temporary:
+        temporary.write_text(json.dumps(report, indent=1, allow_nan=True) + "\n", encoding="utf-8")
+
+
+def peak_memory_mb() -> int:
+    """Return the largest resident memory of this process so far, in MiB."""
+    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    return int(peak // (1024 * 1024 if sys.platform == "darwin" else 1024))
+
+
+def _line(passed: bool, name: str, fault: str, count: int | None) -> str:
+    return f"[ok] {name}" if passed else f"[!!] {name}: {fault.format(count)}"
+
+
+def _gap(bridge: Bridge) -> dict[str, Any]:
+    return {"points": len(bridge.points), "length": bridge.rim_length, "at_vertex": int(bridge.points[0])}

@@ -1,0 +1,157 @@
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.spatial import Delaunay
+
+from pointchart._exact import orientation_signs
+from pointchart.boundary.layout import chord_length_steps, on_circle
+from pointchart.certify import certify
+from pointchart.mesh import boundary_loops, half_edges, one_rings
+from pointchart.neighbors import delaunay_star, nearest
+from pointchart.parameterize import parameterize
+from pointchart.shapes import tube
+from pointchart.swaps import swap_to_delaunay
+from pointchart.triangulate import triangulate
+from pointchart.weights import mean_value, reciprocal_distance, shape_preserving
+
+from strategies import flat, planar_discs, rotations, seeds
+
+MAPS = {
+    "reciprocal weights on the 20 nearest": (reciprocal_distance, lambda points: nearest(points, 20)),
+    "shape-preserving weights on stars": (shape_preserving, lambda points: delaunay_star(points, nearest(points, 20))),
+    "mean value weights on stars": (mean_value, lambda points: delaunay_star(points, nearest(points, 20))),
+}
+
+
+def edges_of(triangles):
+    return set(map(tuple, np.sort(triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1).tolist()))
+
+
+def f1(found, true):
+    return 2 * len(found & true) / (len(found) + len(true))
+
+
+def flip_at_random(triangles, is_allowed, rng, n_flips):
+    """Flip random inner edges ab of triangles abc and bad to cd, where that is allowed and cd is no edge yet."""
+    triangles = triangles.copy()
+    for _ in range(n_flips):
+        edges = half_edges(triangles, triangles.max() + 1)
+        h = rng.choice(np.flatnonzero(edges.twins >= 0))
+        t = edges.twins[h]
+        a, b = edges.origins[h], edges.targets[h]
+        c, d = (int(np.setdiff1d(triangles[k // 3], [a, b])[0]) for k in (h, t))
+        flipped = np.array([[c, a, d], [d, b, c]])
+        if is_allowed(flipped) and (min(c, d), max(c, d)) not in edges_of(triangles):
+            triangles[[h // 3, t // 3]] = flipped
+    return triangles
+
+
+@settings(max_examples=15)
+@given(planar_discs(smallest=20, largest=60), seeds, rotations())
+def test_any_triangulation_of_planar_points_ends_at_the_delaunay_triangulation(shape, seed, rotation):
+    def is_plane(flipped):
+        return (orientation_signs(shape.uv, flipped) == 1).all()
+
+    mixed = flip_at_random(shape.triangles, is_plane, np.random.default_rng(seed), 150)
+    swapped = swap_to_delaunay(shape.points @ rotation.T, mixed)
+    assert edges_of(swapped.triangles) == edges_of(Delaunay(shape.uv).simplices)
+    assert (orientation_signs(shape.uv, swapped.triangles) == 1).all()
+    assert swapped.is_settled
+    assert swapped.n_swaps > 0
+
+
+@settings(max_examples=30)
+@given(seeds, st.integers(0, 400))
+def test_swaps_of_any_mesh_keep_a_disc_and_its_boundary_and_end(seed, n_flips):
+    shape = tube(2, n_around=10)
+    mixed = flip_at_random(shape.triangles, lambda flipped: True, np.random.default_rng(seed), n_flips)
+    swapped = swap_to_delaunay(shape.points, mixed)
+    certificate = certify(shape.points, swapped.triangles, loop=shape.boundary)
+    assert certificate.is_disc, certificate.faults
+    assert len(swapped.triangles) == len(shape.triangles)
+    again = swap_to_delaunay(shape.points, swapped.triangles)
+    assert again.n_swaps == 0 or not swapped.is_settled
+
+
+def test_swaps_keep_the_boundary_and_settle(any_disc):
+    swapped = swap_to_delaunay(any_disc.points, any_disc.triangles)
+    assert swapped.is_settled
+    (before,), (after,) = (
+        boundary_loops(half_edges(triangles, len(any_disc.points)))
+        for triangles in (any_disc.triangles, swapped.triangles)
+    )
+    assert np.array_equal(before, after)
+    assert certify(any_disc.points, swapped.triangles, loop=any_disc.boundary).is_disc
+
+
+def test_a_second_run_swaps_nothing(any_disc):
+    once = swap_to_delaunay(any_disc.points, any_disc.triangles)
+    twice = swap_to_delaunay(any_disc.points, once.triangles)
+    assert twice.n_swaps == 0
+    assert np.array_equal(once.triangles, twice.triangles)
+
+
+@settings(max_examples=10)
+@given(rotations(), st.floats(-9, 9))
+def test_swaps_do_not_depend_on_place_and_size(disc_shape, rotation, exponent):
+    shape = disc_shape("relief")
+    moved = 10.0**exponent * (shape.points @ rotation.T + [1, 2, 3])
+    one, other = (swap_to_delaunay(points, shape.triangles) for points in (shape.points, moved))
+    assert edges_of(one.triangles) == edges_of(other.triangles)
+
+
+def map_and_mesh(points, loop, name):
+    weights, neighborhoods = MAPS[name]
+    rim = on_circle(chord_length_steps(points, loop))
+    uv = parameterize(points, loop, rim, neighborhoods(points), weights=weights).uv
+    return swap_to_delaunay(points, triangulate(uv, loop)).triangles
+
+
+@pytest.mark.parametrize("name", MAPS)
+@pytest.mark.parametrize("shape", ["relief", "hemisphere", "cap of 150 degrees", "face"])
+def test_every_map_of_the_right_topology_ends_in_the_same_mesh(disc_shape, shape, name):
+    shape = disc_shape(shape)
+    true = swap_to_delaunay(shape.points, shape.triangles).triangles
+    found = map_and_mesh(shape.points, shape.boundary, name)
+    assert f1(edges_of(found), edges_of(true)) > 0.999
+
+
+@pytest.mark.parametrize("name", MAPS)
+def test_the_true_mesh_of_a_scanned_foot_is_found_by_every_map(scan, name):
+    foot = scan("foot")
+    found = map_and_mesh(foot.points, foot.loop, name)
+    assert f1(edges_of(found), edges_of(foot.triangles)) > 0.998
+
+
+def test_the_mean_value_map_of_a_mesh_to_the_circle_is_one_to_one(any_disc):
+    rim = on_circle(chord_length_steps(any_disc.points, any_disc.boundary))
+    rings = one_rings(any_disc.triangles, len(any_disc.points))
+    uv = parameterize(any_disc.points, any_disc.boundary, rim, rings, weights=mean_value).uv
+    assert (orientation_signs(uv, any_disc.triangles) == 1).all()
+
+
+@settings(max_examples=15)
+@given(seeds)
+def test_even_a_mesh_with_random_edges_is_mapped_one_to_one(disc_shape, seed):
+    shape = disc_shape("tube")
+    mixed = flip_at_random(shape.triangles, lambda flipped: True, np.random.default_rng(seed), 60)
+    rim = on_circle(chord_length_steps(shape.points, shape.boundary))
+    uv = parameterize(shape.points, shape.boundary, rim, one_rings(mixed, len(shape.points)), weights=mean_value).uv
+    assert (orientation_signs(uv, mixed) == 1).all()
+
+
+def test_an_edge_stays_where_its_replacement_is_an_edge_already():
+    # A tetrahedron without its base: the only inner edges meet in the tip, and all three ends are joined.
+    points = np.array([[0, 0, 9.0], [1, 0, 0], [-0.5, 0.8, 0], [-0.5, -0.8, 0]])
+    triangles = np.array([[0, 1, 2], [0, 2, 3], [0, 3, 1]])
+    assert swap_to_delaunay(points, triangles).n_swaps == 0
+
+
+def test_the_given_triangles_are_not_changed():
+    kite = np.array([[0, 1, 2], [1, 0, 3]])
+    points = flat(np.array([[0.0, 0], [9, 0], [4, 1], [4, -1]]))
+    swapped = swap_to_delaunay(points, kite)
+    assert swapped.n_swaps == 1
+    assert kite.tolist() == [[0, 1, 2], [1, 0, 3]]
+    assert edges_of(swapped.triangles) == {(0, 2), (0, 3), (1, 2), (1, 3), (2, 3)}
