@@ -46,14 +46,17 @@ def check_loop(loop: ArrayLike, n_points: int) -> Loop:
     """
     given = np.asarray(loop)
     if given.ndim != 1 or not np.issubdtype(given.dtype, np.integer):
-        raise InputError(f"the boundary has shape {given.shape} and type {given.dtype}; a list of point indices is needed")
+        raise InputError(
+            f"the boundary has shape {given.shape} and type {given.dtype}; a list of point indices is needed"
+        )
     array = np.ascontiguousarray(given, dtype=np.int64)
     if len(array) > 1 and array[0] == array[-1]:
         array = array[:-1]
     outside = np.flatnonzero((array < 0) | (array >= n_points))
     if len(outside):
         raise InputError(
-            f"{len(outside)} boundary entries name no point, the first is {array[outside[0]]} at position {outside[0]}; "
+            f"{len(outside)} boundary entries name no point, the first is {array[outside[0]]} at position "
+            f"{outside[0]}; "
             f"indices run from 0 to {n_points - 1}"
         )
     if len(array) < 3:

@@ -13,7 +13,7 @@ def n_threads() -> int:
 
 
 def over_ranges(kernel: Callable[[int, int], object], n: int) -> None:
-    """Call `kernel(first, last)` for consecutive ranges that cover 0..n; the kernel must release the interpreter's lock.
+    """Call `kernel(first, last)` for ranges that cover 0..n; the kernel must release the interpreter's lock.
 
     >>> seen = []
     >>> over_ranges(lambda first, last: seen.append((first, last)), 3)

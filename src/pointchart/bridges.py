@@ -55,7 +55,7 @@ def find_bridges(points: Points, triangles: Triangles, spacing: Floats) -> list[
     is_rim[both] = False
     rim_lengths = np.bincount(np.repeat(labels, 3)[is_rim], lengths[is_rim], labels.max() + 1)
     bridges = []
-    # Each bridging triangle that meets no other is a component of its own, and so is every triangle that bridges nothing.
+    # Triangles that bridge nothing are components of their own, and left out.
     found = np.flatnonzero(bridging)
     by_label = found[np.argsort(labels[found], kind="stable")]
     for members in np.split(by_label, np.flatnonzero(np.diff(labels[by_label])) + 1) if len(found) else []:

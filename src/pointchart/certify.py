@@ -3,12 +3,13 @@
 from dataclasses import dataclass
 
 import numpy as np
+import scipy.sparse as sp
 from numpy.typing import ArrayLike
 
 from ._check import check_loop, check_points
 from ._exact import orientation_signs
 from .errors import InputError, name_some
-from .mesh import boundary_loops, fans, half_edges
+from .mesh import HalfEdges, boundary_loops, fans, half_edges
 from .neighbors import spacing as local_spacing
 from .quality import dihedral_angles, edge_lengths
 from .triangulate import coinciding
@@ -30,6 +31,8 @@ class Certificate:
         Edges with more than two triangles, or with triangles of opposite orientation.
     pinched_points : int
         Points with more than one fan of triangles.
+    parts : int
+        Parts that no edge joins.
     euler : int
         Euler characteristic: points in use - edges + triangles; 1 for a disc.
     boundary_loops : int
@@ -50,6 +53,7 @@ class Certificate:
     unused_points: int
     overfull_edges: int
     pinched_points: int
+    parts: int
     euler: int
     boundary_loops: int
     boundary_as_given: bool | None
@@ -76,6 +80,7 @@ class Certificate:
             (self.unused_points > 0, f"{self.unused_points} points are in no triangle"),
             (self.overfull_edges > 0, f"{self.overfull_edges} edges have more than two triangles or turn over"),
             (self.pinched_points > 0, f"{self.pinched_points} points have several fans of triangles"),
+            (self.parts > 1, f"it has {self.parts} parts instead of 1"),
             (self.euler != 1, f"its Euler characteristic is {self.euler} instead of 1"),
             (self.boundary_loops != 1, f"it has {self.boundary_loops} boundary loops instead of 1"),
             (self.boundary_as_given is False, "its boundary is not the loop given"),
@@ -125,7 +130,7 @@ def certify(
     faces = _checked_triangles(triangles, len(cloud))
     edges = half_edges(faces, len(cloud))
     fan_counts = fans(edges, len(cloud))
-    n_edges = len(edges.twins) - int((edges.twins >= 0).sum()) // 2
+    n_edges, n_overfull = _count_edges(edges)
     is_manifold = edges.n_overfull == 0 and not (fan_counts > 1).any()
     loops = boundary_loops(edges) if is_manifold else []
     plane = None if uv is None else np.asarray(uv, dtype=np.float64)
@@ -137,8 +142,9 @@ def certify(
         n_points=len(cloud),
         n_triangles=len(faces),
         unused_points=int((fan_counts == 0).sum()),
-        overfull_edges=edges.n_overfull,
+        overfull_edges=n_overfull,
         pinched_points=int((fan_counts > 1).sum()),
+        parts=_count_parts(edges, len(cloud)) - int((fan_counts == 0).sum()),
         euler=int((fan_counts > 0).sum()) - n_edges + len(faces),
         boundary_loops=len(loops),
         boundary_as_given=None if loop is None else _is_same_cycle(loops, check_loop(loop, len(cloud))),
@@ -157,11 +163,28 @@ def _checked_triangles(triangles: ArrayLike, n_points: int) -> Triangles:
         raise InputError(f"triangles have shape {faces.shape}; (m, 3) is needed")
     wrong = np.flatnonzero(((faces < 0) | (faces >= n_points)).any(axis=1))
     if len(wrong):
-        raise InputError(f"triangles {name_some(wrong)} name points that are not there; indices run from 0 to {n_points - 1}")
+        raise InputError(
+            f"triangles {name_some(wrong)} name points that are not there; indices run from 0 to {n_points - 1}"
+        )
     doubled = np.flatnonzero((faces == np.roll(faces, 1, axis=1)).any(axis=1))
     if len(doubled):
         raise InputError(f"triangles {name_some(doubled)} name a point twice; remove them")
     return faces.astype(np.int64)
+
+
+def _count_edges(edges: HalfEdges) -> tuple[int, int]:
+    """Count all edges, and the overfull ones."""
+    if edges.n_overfull == 0:
+        return len(edges.twins) - int((edges.twins >= 0).sum()) // 2, 0
+    low, high = np.minimum(edges.origins, edges.targets), np.maximum(edges.origins, edges.targets)
+    ways, uses = np.unique(np.column_stack([low, high, edges.origins == low]), axis=0, return_counts=True)
+    return len(np.unique(ways[:, :2], axis=0)), len(np.unique(ways[uses > 1, :2], axis=0))
+
+
+def _count_parts(edges: HalfEdges, n_points: int) -> int:
+    """Count the parts of a mesh that no edge joins; an unused point is one."""
+    graph = sp.csr_array((np.ones(len(edges.origins), np.int8), (edges.origins, edges.targets)), shape=(n_points,) * 2)
+    return int(sp.csgraph.connected_components(graph, directed=False)[0])
 
 
 def _is_same_cycle(loops: list[Loop], asked: Loop) -> bool:

@@ -36,8 +36,8 @@ class Links:
 def link_stars(star: Neighborhoods) -> Links:
     """Join Delaunay stars to one symmetric graph, trusting links by the agreement of neighbouring stars.
 
-    A link has full trust when it is an edge of a triangle that at least two of its corners' stars hold. The others, mostly
-    across to a close second sheet, keep a hundredth.
+    A link has full trust when it is an edge of a triangle that at least two of its corners' stars hold. The others,
+    mostly across to a close second sheet, keep a hundredth.
 
     Parameters
     ----------

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from scipy.spatial import cKDTree
 
 from ._check import check_points
@@ -11,7 +11,7 @@ from ._kernels.planes import fit_normals
 from ._kernels.stars import delaunay_stars as stars_kernel
 from ._parallel import over_ranges
 from .errors import InputError
-from .typing import Floats, Indices, Mask, Points, Triangles
+from .typing import Floats, Indices, Mask, Points
 
 STEEPEST = 0.8  # sine of the steepest neighbour against the tangent plane; steeper ones lie on another sheet
 TIE_BREAK = 1e-4
@@ -98,7 +98,9 @@ def ball(points: ArrayLike, radius: float | Floats) -> Neighborhoods:
     cloud = check_points(points)
     radii = np.broadcast_to(np.asarray(radius, dtype=np.float64), len(cloud))
     if not np.all(radii > 0.0):
-        raise InputError(f"the radius is {radii.min():g}; it has to be positive, some 2 to 4 times the spacing of the points")
+        raise InputError(
+            f"the radius is {radii.min():g}; it has to be positive, some 2 to 4 times the spacing of the points"
+        )
     tree = cKDTree(cloud)
     counts = np.asarray(tree.query_ball_point(cloud, radii, return_length=True, workers=-1))
     rows, columns = [], []
@@ -158,7 +160,7 @@ def _without_self(found: Indices) -> Indices:
     """Drop each point from its own row of nearest points, or the farthest where rounding has pushed it out."""
     own = found == np.arange(len(found))[:, None]
     own[~own.any(axis=1), -1] = True
-    return found[~own].reshape(len(found), -1)
+    return np.asarray(found[~own].reshape(len(found), -1))
 
 
 def spacing(points: ArrayLike, *, k: int = 6, around: Neighborhoods | None = None) -> Floats:
@@ -189,8 +191,8 @@ def spacing(points: ArrayLike, *, k: int = 6, around: Neighborhoods | None = Non
 def break_ties(points: ArrayLike, spacing: Floats) -> Points:
     """Move each point by up to a ten-thousandth of the spacing, the same way on every call.
 
-    On a grid all circles hold four points, and neighbouring stars cannot agree on a diagonal. So stars that have to agree
-    are searched among points in general position; nothing else ever sees the moved points.
+    On a grid all circles hold four points, and neighbouring stars cannot agree on a diagonal. So stars that have to
+    agree are searched among points in general position; nothing else ever sees the moved points.
 
     Parameters
     ----------
@@ -233,9 +235,7 @@ def normals(points: ArrayLike, around: Neighborhoods) -> Floats:
     """
     cloud = check_points(points)
     result = np.empty_like(cloud)
-    over_ranges(
-        lambda first, last: fit_normals(cloud, around.indptr, around.indices, first, last, result), len(cloud)
-    )
+    over_ranges(lambda first, last: fit_normals(cloud, around.indptr, around.indices, first, last, result), len(cloud))
     return result
 
 
@@ -275,9 +275,7 @@ def delaunay_star(points: ArrayLike, around: Neighborhoods, *, planes: Neighborh
     return _compact(around, *_stars(cloud, normals(cloud, planes or around), around)[:4])
 
 
-def _stars(
-    cloud: Points, normal: Floats, around: Neighborhoods
-) -> tuple[Indices, Floats, Indices, Mask, Floats]:
+def _stars(cloud: Points, normal: Floats, around: Neighborhoods) -> tuple[Indices, Floats, Indices, Mask, Floats]:
     star, local = np.empty_like(around.indices), np.empty((len(around.indices), 2))
     count, is_open = np.empty(len(cloud), np.int64), np.empty(len(cloud), np.bool_)
     diameter = np.empty(len(cloud))

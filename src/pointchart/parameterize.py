@@ -47,8 +47,8 @@ def parameterize(
 
     .. math:: u_i = \sum_{j \in N_i} \lambda_{ij} u_j
 
-    The system has one solution when a path leads from every interior point to the boundary (Proposition 3.3), and it keeps
-    every point in the hull of the boundary points that it reaches (Proposition 3.1).
+    The system has one solution when a path leads from every interior point to the boundary (Proposition 3.3), and it
+    keeps every point in the hull of the boundary points that it reaches (Proposition 3.1).
 
     Parameters
     ----------
@@ -72,8 +72,8 @@ def parameterize(
     Raises
     ------
     InputError
-        If interior points have no path to the boundary, or hang on a single point, into which they would collapse; or if
-        the weights are no convex combination.
+        If interior points have no path to the boundary, or hang on a single point, into which they would collapse; or
+        if the weights are no convex combination.
     SolveError
         If the solver fails.
 
@@ -124,8 +124,8 @@ def check_connected(neighborhoods: Neighborhoods, loop: Loop) -> None:
     hanging = np.flatnonzero(hanging_on >= 0)
     if len(hanging):
         raise InputError(
-            "interior points {hanging} reach the boundary only through point {through}, into which they would collapse; "
-            f"use a larger neighbourhood (its median size is {median}), or remove them",
+            "interior points {hanging} reach the boundary only through point {through}, into which they would "
+            f"collapse; use a larger neighbourhood (its median size is {median}), or remove them",
             hanging=hanging,
             through=hanging_on[hanging[0]],
         )
@@ -166,7 +166,9 @@ def cut_points(neighborhoods: Neighborhoods, loop: Loop) -> Indices:
 def _convex_matrix(weights: ArrayLike, neighborhoods: Neighborhoods, loop: Loop) -> sp.csr_array:
     values, n = np.asarray(weights, dtype=np.float64), neighborhoods.n_points
     if values.shape != neighborhoods.indices.shape:
-        raise InputError(f"the weights have shape {values.shape}; the neighbourhoods have {len(neighborhoods.indices)} entries")
+        raise InputError(
+            f"the weights have shape {values.shape}; the neighbourhoods have {len(neighborhoods.indices)} entries"
+        )
     sums = np.bincount(neighborhoods.rows, values, n)
     sums[loop] = 1.0
     negative = np.flatnonzero(~(values >= 0.0))
@@ -181,7 +183,7 @@ def _convex_matrix(weights: ArrayLike, neighborhoods: Neighborhoods, loop: Loop)
 
 
 def _inside(uv: UV, layout: UV) -> UV:
-    """Check Proposition 3.1 in its plainest form: no point outside the bounding box of the boundary, but for rounding."""
+    """Check Proposition 3.1 in its plainest form: no point lies outside the bounding box of the boundary."""
     low, high = layout.min(axis=0), layout.max(axis=0)
     slack = 1e-9 * (high - low)
     outside = np.flatnonzero(((uv < low - slack) | (uv > high + slack)).any(axis=1))

@@ -73,11 +73,13 @@ def _shade(axes: Any, turned: Points, triangles: Triangles) -> None:
     shade[normal[:, 2] < 0.0] *= 0.6
     order = np.argsort(corner[:, :, 2].mean(axis=1))
     colors = np.clip(shade[order, None] * STONE, 0.0, 1.0)
-    axes.add_collection(PolyCollection(corner[order][:, :, :2], facecolors=colors, edgecolors=colors, linewidths=0.15))
+    axes.add_collection(
+        PolyCollection(list(corner[order][:, :, :2]), facecolors=colors, edgecolors=colors, linewidths=0.15)
+    )
 
 
 def _rotation(about_vertical: float, about_horizontal: float) -> Floats:
     a, b = np.deg2rad(about_vertical), np.deg2rad(about_horizontal)
     turn = np.array([[np.cos(a), 0.0, np.sin(a)], [0.0, 1.0, 0.0], [-np.sin(a), 0.0, np.cos(a)]])
     tilt = np.array([[1.0, 0.0, 0.0], [0.0, np.cos(b), -np.sin(b)], [0.0, np.sin(b), np.cos(b)]])
-    return tilt @ turn
+    return np.asarray(tilt @ turn)

@@ -140,15 +140,16 @@ def reconstruct(
     loop : (b,) int array, optional
         Boundary rows in order, in either direction; found, if not given.
     connect : callable, optional
-        ``connect(points) -> Neighborhoods``, as for the paper's methods, to be used with `weights`; it is called with the
-        distinct points in spatial order, in the unit of the scan. If not given, Delaunay stars are linked by their agreement, and links that the mesh contradicts lose their trust.
+        ``connect(points) -> Neighborhoods``, as for the paper's methods, to be used with `weights`; it is called with
+        the distinct points in spatial order, in the unit of the scan. If not given, Delaunay stars are linked by
+        their agreement, and links that the mesh contradicts lose their trust.
     weights : callable
         ``weights(points, neighborhoods) -> (nnz,)``; used with `connect` only.
     swap : callable
         ``swap(points, triangles) -> Swapped``: `swap_to_delaunay` or `keep_edges`.
     layout : callable
-        ``layout(points, loop) -> (b, 2)``: where the boundary goes on the convex domain of `uv`; called with the scan and
-        its boundary rows, anticlockwise. The mesh is always made from a map to the circle.
+        ``layout(points, loop) -> (b, 2)``: where the boundary goes on the convex domain of `uv`; called with the scan
+        and its boundary rows, anticlockwise. The mesh is always made from a map to the circle.
     chart : callable
         `uv_on_mesh`, one-to-one, or `uv_of_points`, the paper's own parameters.
     solver : callable, optional
@@ -312,9 +313,9 @@ def _check_bridges(chosen: Candidate, bridges: list[Bridge]) -> None:
         length, count = bridge.rim_length / chosen.length, len(bridge.points) / len(chosen.loop)
         if length >= SECOND_BOUNDARY and count >= SECOND_BOUNDARY:
             raise SolveError(
-                f"the surface has a second boundary, so it is no disc: besides the loop of {len(chosen.loop)} points that "
-                f"passes point {{here}} there is a gap of {len(bridge.points)} points, {length:.2f} times as long, at point "
-                "{there}; give the boundary with --boundary, or close the gap",
+                f"the surface has a second boundary, so it is no disc: besides the loop of {len(chosen.loop)} points "
+                f"that passes point {{here}} there is a gap of {len(bridge.points)} points, {length:.2f} times as "
+                "long, at point {there}; give the boundary with --boundary, or close the gap",
                 here=chosen.loop[0],
                 there=bridge.points[0],
             )
@@ -325,13 +326,16 @@ def _check_proof(proof: Certificate, chart: ChartRule) -> None:
         raise SolveError(f"the mesh is no disc: {', '.join(proof.faults)}; give another boundary or neighbourhood")
     if chart is uv_on_mesh and not proof.is_one_to_one:
         raise SolveError(
-            f"the parameters are not one-to-one: {proof.flat_or_folded_uv} triangles are flat and {proof.coinciding_uv} "
-            "points coincide, since a part of the surface is too long for its neck in double precision; cut that part off"
+            f"the parameters are not one-to-one: {proof.flat_or_folded_uv} triangles are flat and "
+            f"{proof.coinciding_uv} points coincide, since a part of the surface is too long for its neck in double "
+            "precision; cut that part off"
         )
 
 
-def _in_rows(cloud: Cloud, rim: Loop, mapped: Parameterization, proof: Certificate, evidence: Evidence) -> Reconstruction:
-    """Number points as the scan does."""
+def _in_rows(
+    cloud: Cloud, rim: Loop, mapped: Parameterization, proof: Certificate, evidence: Evidence
+) -> Reconstruction:
+    """Return everything in the numbering of the scan."""
     order = np.argsort(cloud.rows)
     vertex = np.empty_like(order)
     vertex[order] = np.arange(len(order))

@@ -16,7 +16,9 @@ from .weights import WeightScheme
 SwapRule = Callable[[Points, Triangles], Swapped]
 
 MOST_ROUNDS = 4
-TOLERATED = 0.01  # share of trusted links that a sound mesh contradicts: long diagonals, on every scan with thin triangles
+TOLERATED = (
+    0.01  # share of trusted links that a sound mesh contradicts: long diagonals, on every scan with thin triangles
+)
 LEAST_GAIN = 0.9
 
 

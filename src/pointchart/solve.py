@@ -112,8 +112,9 @@ def _name(solver: Solver) -> str:
 class Direct:
     """Solve by LU without pivoting, ordered by nested dissection, with one step of iterative refinement.
 
-    The matrix is a diagonally dominant M-matrix, which needs no pivoting. The order of elimination is kept, and serves
-    again for later systems of the same size: systems on the same points have nearly the same graph, and any order is right.
+    The matrix is a diagonally dominant M-matrix, which needs no pivoting. The order of elimination is kept, and
+    serves again for later systems of the same size: systems on the same points have nearly the same graph, and any
+    order is right.
     """
 
     __name__ = "direct"
@@ -194,8 +195,8 @@ def symmetrize(left: sp.csr_array) -> tuple[sp.csr_array, Floats]:
         odd = symmetrizer(order, parent, left.indptr, left.indices, left.data, scale)
         if odd >= 0:
             raise SolveError(
-                "points {one} and {other} are not neighbours of each other, so the matrix has no symmetric form (4.5); use "
-                "balls of constant radius or another solver",
+                "points {one} and {other} are not neighbours of each other, so the matrix has no symmetric form "
+                "(4.5); use balls of constant radius or another solver",
                 one=odd,
                 other=parent[odd],
             )
@@ -262,8 +263,10 @@ def _krylov(
             callback=lambda _, steps=steps: steps.append(None),
         )
         if flag != 0:
-            raise SolveError(f"{method.__name__} did not reach a relative residual of {tolerance:g} in "
-                             f"{len(steps)} iterations ({len(right)} unknowns); use the direct solver")
+            raise SolveError(
+                f"{method.__name__} did not reach a relative residual of {tolerance:g} in "
+                f"{len(steps)} iterations ({len(right)} unknowns); use the direct solver"
+            )
         columns.append(column)
         counts.append(len(steps))
     return np.column_stack(columns), tuple(counts)

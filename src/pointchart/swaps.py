@@ -35,14 +35,15 @@ class Swapped:
 def swap_to_delaunay(points: ArrayLike, triangles: Triangles) -> Swapped:
     r"""Swap edges until each is the better diagonal of its two triangles, by angles measured in space.
 
-    Edge ab of triangles abc and bad gives way to cd when the angles opposite to it sum to more than those opposite to cd:
+    Edge ab of triangles abc and bad gives way to cd when the angles opposite to it sum to more than those opposite to
+    cd:
 
     .. math:: \gamma_c + \gamma_d > \gamma_a + \gamma_b
 
-    In a plane the four angles sum to :math:`2 \pi`, so this is the Delaunay criterion
-    :math:`\gamma_c + \gamma_d > \pi`; in space, where they sum to less and both diagonals may pass that test, it takes the
-    better one. An edge stays when its replacement is in the mesh already, and the boundary never changes. Every map of the
-    right topology ends in nearly the same mesh.
+    In a plane the four angles sum to :math:`2 \pi`, so this is the Delaunay criterion :math:`\gamma_c + \gamma_d >
+    \pi`; in space, where they sum to less and both diagonals may pass that test, it takes the better one. An edge
+    stays when its replacement is in the mesh already, and the boundary never changes. Every map of the right topology
+    ends in nearly the same mesh.
 
     Parameters
     ----------
@@ -70,10 +71,14 @@ def swap_to_delaunay(points: ArrayLike, triangles: Triangles) -> Swapped:
     edges = half_edges(np.asarray(triangles), len(cloud))
     n = len(edges.origins)
     turns = np.zeros(n // 3, np.int64)
-    n_swaps = delaunay_swaps(
-        cloud, edges.origins, edges.twins, np.empty(n, np.int64), np.empty(n, np.bool_), turns
-    )
-    return Swapped(edges.origins.reshape(-1, 3), int(n_swaps), bool(np.all(turns < MOST_SWAPS_OF_A_TRIANGLE)))
+    n_swaps, is_done = 0, False
+    while not is_done:
+        made, barred = delaunay_swaps(
+            cloud, edges.origins, edges.twins, np.empty(n, np.int64), np.empty(n, np.bool_), turns
+        )
+        n_swaps += int(made)
+        is_done = made == 0 or barred == 0
+    return Swapped(edges.origins.reshape(-1, 3), n_swaps, bool(np.all(turns < MOST_SWAPS_OF_A_TRIANGLE)))
 
 
 def keep_edges(points: Points, triangles: Triangles) -> Swapped:
@@ -135,8 +140,8 @@ def swap_off_sides(mesh: Swapped, loop: Loop, boundary_uv: UV) -> Swapped:
         n_swaps += done
         if len(flat) >= before:
             raise SolveError(
-                f"{len(flat)} inner edges join points of one straight side of the domain (points {{ends}}) and cannot be "
-                "swapped, so the map would be flat there; use the circle",
+                f"{len(flat)} inner edges join points of one straight side of the domain (points {{ends}}) and cannot "
+                "be swapped, so the map would be flat there; use the circle",
                 ends=np.unique(edges.origins[flat]),
             )
     return Swapped(edges.origins.reshape(-1, 3), mesh.n_swaps + n_swaps, mesh.is_settled)

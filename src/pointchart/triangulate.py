@@ -15,8 +15,8 @@ from .typing import UV, Indices, Loop, Triangles
 def triangulate(uv: ArrayLike, loop: ArrayLike) -> Triangles:
     """Triangulate all parameter points by Delaunay's criterion, with the boundary loop as the boundary.
 
-    Predicates are exact, so points as close as 1e-14 are kept apart. Boundary points that were rounded to doubles are not
-    exactly in convex position: triangles of the hull that lie outside the loop are peeled off.
+    Predicates are exact, so points as close as 1e-14 are kept apart. Boundary points that were rounded to doubles are
+    not exactly in convex position: triangles of the hull that lie outside the loop are peeled off.
 
     Parameters
     ----------
@@ -77,8 +77,8 @@ def _delaunay(uv: UV) -> Triangles:
     doubled = coinciding(uv)
     if len(doubled):
         raise SolveError(
-            f"the parameters of {len(doubled)} points coincide with those of others (points {{doubled}}), so they cannot "
-            "be triangulated; use reciprocal or mean value weights, or a larger neighbourhood",
+            f"the parameters of {len(doubled)} points coincide with those of others (points {{doubled}}), so they "
+            "cannot be triangulated; use reciprocal or mean value weights, or a larger neighbourhood",
             doubled=doubled,
         )
     order = morton_order(uv)

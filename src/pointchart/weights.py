@@ -1,6 +1,7 @@
 """Convex weights: from neighbourhoods to the numbers of system (2.1).
 
-Every scheme has the one signature ``scheme(points, neighborhoods) -> (nnz,)``; so does whatever a user passes in its place.
+Every scheme has the one signature ``scheme(points, neighborhoods) -> (nnz,)``; so does whatever a user passes in its
+place.
 """
 
 from collections.abc import Callable
@@ -85,8 +86,8 @@ def mean_value(points: Points, neighborhoods: Neighborhoods) -> Weights:
 
     .. math:: w_{ij} = \frac{\tan(\alpha_{j-1}/2) + \tan(\alpha_j/2)}{\|x_j - x_i\|}
 
-    with :math:`\alpha_j` the angle at :math:`x_i` between neighbours j and j + 1, measured in space. An open star has no
-    angle across its gap.
+    with :math:`\alpha_j` the angle at :math:`x_i` between neighbours j and j + 1, measured in space. An open star has
+    no angle across its gap.
 
     Parameters
     ----------
@@ -138,9 +139,9 @@ def half_angle_tangent(a: Floats, b: Floats, length_a: Floats, length_b: Floats)
 def shape_preserving(points: Points, neighborhoods: Neighborhoods) -> Weights:
     r"""Weigh neighbours by the averaged barycentric coordinates of Floater 1997: exact on planes.
 
-    For each neighbour j, the ray from :math:`x_j` through :math:`x_i` meets an edge k, k + 1 of the star; the barycentric
-    coordinates of :math:`x_i` in the triangle j, k, k + 1 are averaged over j. Open stars, which do not surround their
-    centre, get mean value weights.
+    For each neighbour j, the ray from :math:`x_j` through :math:`x_i` meets an edge k, k + 1 of the star; the
+    barycentric coordinates of :math:`x_i` in the triangle j, k, k + 1 are averaged over j. Open stars, which do not
+    surround their centre, get mean value weights.
 
     Parameters
     ----------
@@ -188,7 +189,7 @@ def _offsets(points: Points, neighborhoods: Neighborhoods) -> Floats:
 
 
 def _lengths(offset: Floats) -> Floats:
-    return np.sqrt(np.einsum("ij,ij->i", offset, offset))
+    return np.asarray(np.sqrt(np.einsum("ij,ij->i", offset, offset)))
 
 
 def _following(neighborhoods: Neighborhoods) -> tuple[Indices, Indices]:

@@ -36,7 +36,7 @@ def largest_gaps(points, normals, indptr, indices, first, last, gap):
 
 @njit(cache=True, nogil=True)
 def count_votes(indptr, indices, is_open, first, last, votes):
-    """Count the stars that hold the triangle of each entry and its follower; 0 where a star of smaller index counts it."""
+    """Count the stars that hold the triangle of each entry and its follower; the one of smallest index counts."""
     for i in range(first, last):
         begin, end = indptr[i], indptr[i + 1]
         for e in range(begin, end):
@@ -53,7 +53,7 @@ def count_votes(indptr, indices, is_open, first, last, votes):
 
 @njit(cache=True, nogil=True)
 def name_edges(triangles, first, ends, edge_of):
-    """Number the edges of triangles whatever their orientation; return how many there are.
+    """Give the edges of triangles numbers, whatever their orientation; return how many there are.
 
     Edge k of a triangle lies opposite to corner k. `first` is scratch space of (n_points + 1,), `ends` of (3 m, 2).
     """

@@ -1,8 +1,8 @@
 """Delaunay neighbourhoods by inversion: one small convex hull a point instead of one triangulation a point.
 
-With the centre at the origin of its plane and q' = q / |q|^2, the Delaunay neighbours of the centre are the vertices of the
-convex hull of {q'}. The centre is on the hull of its neighbours when a gap of at least pi opens between them; its star is
-then the hull of {q'} and the origin, less the origin.
+With the centre at the origin of its plane and q' = q / |q|^2, the Delaunay neighbours of the centre are the vertices
+of the convex hull of {q'}. The centre is on the hull of its neighbours when a gap of at least pi opens between them;
+its star is then the hull of {q'} and the origin, less the origin.
 """
 
 import math

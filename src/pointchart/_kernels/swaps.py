@@ -22,7 +22,7 @@ def angle_parts(points, apex, a, b):
 
 @njit(cache=True, nogil=True, inline="always")
 def angle_sum_measure(points, p, q, a, b):
-    """Return a number in [0, 4] that grows with the sum of the angles at p and q opposite to edge ab, from 0 to 2 pi."""
+    """Return a number in [0, 4] that grows with the sum of the angles at p and q opposite to edge ab."""
     dot_p, cross_p, length_p = angle_parts(points, p, a, b)
     dot_q, cross_q, length_q = angle_parts(points, q, a, b)
     length = length_p * length_q
@@ -78,10 +78,11 @@ def swap(corners, twin, h):
 
 @njit(cache=True, nogil=True)
 def delaunay_swaps(points, corners, twin, stack, queued, swapped):
-    """Swap edges until all are Delaunay in space; return how many swaps that took.
+    """Swap edges until all are Delaunay in space; return how many swaps that took, and how many edges were left alone.
 
-    An edge is left alone when its replacement is there already. For points in a plane the swaps end by Lawson's theorem;
-    in space no theorem is known, so no triangle takes the lead in more than a fixed number of them.
+    An edge is left alone when its replacement is there already, which a later swap may change. For points in a plane
+    the swaps end by Lawson's theorem; in space no theorem is known, so no triangle takes the lead in more than a
+    fixed number of them.
     """
     size = 0
     for h in range(len(corners)):
@@ -89,7 +90,7 @@ def delaunay_swaps(points, corners, twin, stack, queued, swapped):
         if queued[h]:
             stack[size] = h
             size += 1
-    total = 0
+    total = barred = 0
     while size > 0:
         size -= 1
         h = stack[size]
@@ -101,6 +102,7 @@ def delaunay_swaps(points, corners, twin, stack, queued, swapped):
         if angle_sum_measure(points, c, d, a, b) <= angle_sum_measure(points, a, b, c, d) + ROUNDING:
             continue
         if are_joined(corners, twin, preceding(h), d):
+            barred += 1
             continue
         swap(corners, twin, h)
         total += 1
@@ -114,4 +116,4 @@ def delaunay_swaps(points, corners, twin, stack, queued, swapped):
                 queued[edge] = True
                 stack[size] = edge
                 size += 1
-    return total
+    return total, barred

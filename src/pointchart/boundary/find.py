@@ -8,8 +8,8 @@ from numpy.typing import ArrayLike
 
 from .._check import check_points
 from ..errors import InputError
-from ..neighbors import Neighborhoods, break_ties, nearest
-from ..typing import Floats, Indices, Loop, Mask, Points
+from ..neighbors import Neighborhoods, nearest
+from ..typing import Floats, Loop, Mask, Points
 from .detect import BOUNDARY_GAP, angular_gaps
 from .rims import agreed_triangles, rims
 
@@ -94,7 +94,9 @@ def find_boundary(points: ArrayLike, star: Neighborhoods, spacing: Floats) -> Fo
     cloud = check_points(points)
     check_one_piece(star)
     gaps = angular_gaps(cloud, nearest(cloud, GAP_NEIGHBORS))
-    found = [measure(cloud, loop, gaps > BOUNDARY_GAP) for loop in rims(agreed_triangles(cloud, star, spacing), len(cloud))]
+    found = [
+        measure(cloud, loop, gaps > BOUNDARY_GAP) for loop in rims(agreed_triangles(cloud, star, spacing), len(cloud))
+    ]
     scale = float(np.median(spacing))
     good = [c for c in found if c.share >= LEAST_SHARE and c.length >= SHORTEST * scale]
     if not good:
@@ -124,8 +126,8 @@ def check_one_piece(star: Neighborhoods) -> None:
         largest = np.argsort(-sizes)
         shown = " and ".join(str(size) for size in sizes[largest][:4]) + (" ..." if count > 4 else "")
         raise InputError(
-            f"the points fall into {count} separate parts, of {shown} points (some of them: {{seeds}}), but a patch is in "
-            "one piece; mesh the parts one by one, or remove the small ones",
+            f"the points fall into {count} separate parts, of {shown} points (some of them: {{seeds}}), but a patch is "
+            "in one piece; mesh the parts one by one, or remove the small ones",
             seeds=[int(np.flatnonzero(labels == part)[0]) for part in largest],
         )
 

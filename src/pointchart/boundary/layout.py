@@ -117,7 +117,9 @@ def on_polygon(steps: Floats, vertices: ArrayLike, corners: Indices) -> UV:
     places = np.asarray(corners)
     b, c = len(lengths), len(polygon)
     if len(places) != c or ((places < 0) | (places >= b)).any():
-        raise InputError(f"the corners are {places.tolist()}; {c} places on a loop of {b} points are needed, from 0 to {b - 1}")
+        raise InputError(
+            f"the corners are {places.tolist()}; {c} places on a loop of {b} points are needed, from 0 to {b - 1}"
+        )
     ahead = (np.roll(places, -1) - places) % b
     if (ahead == 0).any() or ahead.sum() != b:
         raise InputError(f"the corners {places.tolist()} are not in the order of the loop; sort them along it")
@@ -242,8 +244,10 @@ def _position(corners: Points, at: Floats, total: float, where: Floats) -> Point
 def _checked(steps: ArrayLike) -> Floats:
     lengths = np.asarray(steps, dtype=np.float64)
     if lengths.ndim != 1 or len(lengths) < 3 or not np.all(lengths > 0.0):
-        raise InputError("steps along the boundary have to be positive, one for each of at least 3 points; "
-                         "points that repeat give steps of length 0")
+        raise InputError(
+            "steps along the boundary have to be positive, one for each of at least 3 points; "
+            "points that repeat give steps of length 0"
+        )
     return lengths
 
 
@@ -252,7 +256,9 @@ def _convex(polygon: UV) -> UV:
     following = np.roll(sides, -1, axis=0)
     turns = sides[:, 0] * following[:, 1] - sides[:, 1] * following[:, 0]
     if len(polygon) < 3 or not np.all(turns > 0.0):
-        raise InputError("the domain is no convex polygon: give its vertices anticlockwise, at least 3, without straight angles")
+        raise InputError(
+            "the domain is no convex polygon: give its vertices anticlockwise, at least 3, without straight angles"
+        )
     return polygon
 
 

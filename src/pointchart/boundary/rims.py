@@ -1,4 +1,4 @@
-"""Loops from agreeing stars: the triangles that neighbouring stars share form a surface, and its rims are loops in order."""
+"""Loops from agreeing stars: the triangles that neighbouring stars share form a surface with rims."""
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -15,7 +15,7 @@ WIDEST = 2.0  # circumradius of the largest triangle taken, in local spacings
 
 
 def agreed_triangles(points: ArrayLike, star: Neighborhoods, spacing: Floats) -> Triangles:
-    """Collect the triangles that at least two of their corners' stars hold, best first wherever three would share an edge.
+    """Collect the triangles that at least two stars hold, the best ones where three would share an edge.
 
     Parameters
     ----------
@@ -82,7 +82,7 @@ def _simple(walk: Indices) -> list[Loop]:
     for point in [*walk.tolist(), int(walk[0])]:
         if point in place:
             at = place[point]
-            loops.append(np.array(path[at + 1 :] + [point], dtype=np.int64))
+            loops.append(np.array([*path[at + 1 :], point], dtype=np.int64))
             for left in path[at + 1 :]:
                 del place[left]
             del path[at + 1 :]

@@ -14,9 +14,9 @@ from ..typing import Floats, Indices, Loop, Points
 def order_by_halves(points: ArrayLike, members: ArrayLike, *, normal: ArrayLike | None = None, k: int = 4) -> Loop:
     """Order boundary points the paper's way: cut by a plane, each half ordered by a linear system on the line.
 
-    In each half the two end points next to the plane go to 0 and 1, and every other point to a convex combination of its
-    `k` nearest in the same half, by reciprocal distances; the order of these parameters is the order of the points.
-    Suits a boundary that the plane cuts exactly twice.
+    In each half the two end points next to the plane go to 0 and 1, and every other point to a convex combination of
+    its `k` nearest in the same half, by reciprocal distances; the order of these parameters is the order of the
+    points. Suits a boundary that the plane cuts exactly twice.
 
     Parameters
     ----------
@@ -72,7 +72,9 @@ def _order_half(cloud: Points, half: Indices, height: Floats, k: int) -> Loop:
     also = sp.csgraph.breadth_first_order(matrix.T.tocsr(), ends[1], return_predecessors=False)
     lost = np.setdiff1d(np.arange(len(half)), np.union1d(reached, also))
     if len(lost):
-        raise InputError("boundary points {lost} have no path to the ends of their half; use a larger k", lost=half[lost])
+        raise InputError(
+            "boundary points {lost} have no path to the ends of their half; use a larger k", lost=half[lost]
+        )
     matrix = sp.csr_array(sp.diags_array(1.0 / matrix.sum(axis=1)) @ matrix)
     parameter = solve_fixed(matrix, ends, np.array([[0.0], [1.0]])).values[:, 0]
     return np.asarray(half[np.argsort(parameter, kind="stable")])

@@ -8,7 +8,7 @@ from ..errors import PointchartError
 from . import boundary, check, demo, mesh, param
 
 app = typer.Typer(
-    help="From a point cloud of one surface patch to planar parameters and a triangle mesh that is certified to be a disc.",
+    help="From a point cloud of one surface patch to planar parameters and a triangle mesh, certified to be a disc.",
     no_args_is_help=True,
     add_completion=False,
     pretty_exceptions_enable=False,

@@ -35,7 +35,7 @@ def check(
     if not quiet:
         print("\n".join(certificate_lines(proof)), file=sys.stderr)
         print(f"{mesh}: {summary(proof)}", file=sys.stderr)
-    if not proof.is_disc or proof.is_one_to_one is False and _uv(read) is not None:
+    if not proof.is_disc or (proof.is_one_to_one is False and _uv(read) is not None):
         raise typer.Exit(1)
 
 
@@ -48,11 +48,13 @@ def _uv(read: Scan) -> UV | None:
 def _compare(read: Scan, scan: Scan, mesh: Path, path: Path) -> None:
     rows = read.attributes.get("point_index", np.arange(len(scan.points)))
     if len(read.points) != len(rows) or len(np.unique(scan.points, axis=0)) != len(read.points):
-        raise InputError(f"{mesh} has {len(read.points)} vertices, {path} {len(scan.points)} points; they do not belong together")
+        raise InputError(
+            f"{mesh} has {len(read.points)} vertices, {path} {len(scan.points)} points; they do not belong together"
+        )
     extent = np.ptp(scan.points, axis=0).max()
     moved = np.flatnonzero(np.abs(read.points - scan.points[rows]).max(axis=1) > 1e-6 * extent)
     if len(moved):
         raise InputError(
-            f"{len(moved)} vertices of {mesh} are not where {path} has them (points {{moved}}); they do not belong together",
+            f"{len(moved)} vertices of {mesh} are not where {path} has them (points {{moved}}): another scan",
             moved=moved,
         )

@@ -15,9 +15,9 @@ from .progress import staged
 
 
 def demo(
-    out: Annotated[Path, typer.Option("--out", "-o", metavar="DIR", help="Folder for the scan, the mesh and the picture.")] = Path(
-        "demo"
-    ),
+    out: Annotated[
+        Path, typer.Option("--out", "-o", metavar="DIR", help="Folder for the scan, the mesh and the picture.")
+    ] = Path("demo"),
     quiet: given.QuietOption = False,
 ) -> None:
     """Simulate a laser scan of a sculpted face, mesh it, print the certificate, write mesh and picture."""

@@ -18,7 +18,9 @@ from .progress import staged
 def mesh(
     context: typer.Context,
     scan: given.ScanArgument,
-    out: Annotated[Path, typer.Option("--out", "-o", metavar="MESH", help="Mesh to write: ply, obj, off, stl, glb, npz.")],
+    out: Annotated[
+        Path, typer.Option("--out", "-o", metavar="MESH", help="Mesh to write: ply, obj, off, stl, glb, npz.")
+    ],
     boundary: given.BoundaryOption = None,
     neighbors: given.NeighborsOption = None,
     k: given.KOption = None,

@@ -7,23 +7,42 @@ import typer
 
 from .choices import Domain, Neighbors, Spacing, Weighting
 
-ScanArgument = Annotated[Path, typer.Argument(metavar="SCAN", help="Point cloud: ply, obj, off, stl, glb, xyz, txt, csv, pts, npy, npz, las, laz, e57.")]
+ScanArgument = Annotated[
+    Path,
+    typer.Argument(
+        metavar="SCAN", help="Point cloud: ply, obj, off, stl, glb, xyz, txt, csv, pts, npy, npz, las, laz, e57."
+    ),
+]
 BoundaryOption = Annotated[
     Path | None,
-    typer.Option("--boundary", metavar="LOOP.txt", help="Boundary points in order, one 0-based index a line; found, if not given."),
+    typer.Option(
+        "--boundary",
+        metavar="LOOP.txt",
+        help="Boundary points in order, one 0-based index a line; found, if not given.",
+    ),
 ]
 NeighborsOption = Annotated[
     Neighbors | None,
     typer.Option("--neighbors", help="Neighbourhoods of the paper's methods instead of linked Delaunay stars."),
 ]
-KOption = Annotated[int | None, typer.Option("-k", min=1, help="Number of nearest points that neighbours are taken from.")]
+KOption = Annotated[
+    int | None, typer.Option("-k", min=1, help="Number of nearest points that neighbours are taken from.")
+]
 RadiusOption = Annotated[float | None, typer.Option("--radius", help="Radius of the ball, in the unit of the scan.")]
 WeightsOption = Annotated[Weighting, typer.Option("--weights", help="Convex weights, together with --neighbors.")]
-DomainOption = Annotated[Domain, typer.Option("--domain", help="Convex domain of the parameters: unit circle or unit square.")]
+DomainOption = Annotated[
+    Domain, typer.Option("--domain", help="Convex domain of the parameters: unit circle or unit square.")
+]
 CornersOption = Annotated[
     str | None,
-    typer.Option("--corners", metavar="A,B,C,D", help="Four boundary points for the corners of the square, else the sharpest turns."),
+    typer.Option(
+        "--corners",
+        metavar="A,B,C,D",
+        help="Four boundary points for the corners of the square, else the sharpest turns.",
+    ),
 ]
 SpacingOption = Annotated[Spacing, typer.Option("--spacing", help="Spacing of the parameters along the boundary.")]
-ReportOption = Annotated[Path | None, typer.Option("--report", metavar="RUN.json", help="Write what was done and proved as JSON.")]
+ReportOption = Annotated[
+    Path | None, typer.Option("--report", metavar="RUN.json", help="Write what was done and proved as JSON.")
+]
 QuietOption = Annotated[bool, typer.Option("--quiet", help="Say nothing but errors.")]

@@ -19,4 +19,6 @@ def carried(scan: Scan, rows: Indices) -> Attributes:
 
 def given_options(context: typer.Context) -> dict[str, Any]:
     """Return the options of a command as plain data."""
-    return {name: value if isinstance(value, int | float | None) else str(value) for name, value in context.params.items()}
+    return {
+        name: value if isinstance(value, int | float | None) else str(value) for name, value in context.params.items()
+    }

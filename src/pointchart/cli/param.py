@@ -20,7 +20,9 @@ from .progress import staged
 def param(
     context: typer.Context,
     scan: given.ScanArgument,
-    out: Annotated[Path, typer.Option("--out", "-o", metavar="UV", help="Parameters to write: csv, txt, xyz, npy, npz, ply.")],
+    out: Annotated[
+        Path, typer.Option("--out", "-o", metavar="UV", help="Parameters to write: csv, txt, xyz, npy, npz, ply.")
+    ],
     boundary: given.BoundaryOption = None,
     neighbors: given.NeighborsOption = None,
     k: given.KOption = None,
@@ -50,7 +52,9 @@ def param(
     if report is not None:
         stages = [{"name": name, "seconds": round(seconds, 4)} for name, seconds in clock.seconds.items()]
         solved = solve_report(mapped.solution)
-        write_json(report, {"options": given_options(context), "stages": stages, "solve": solved, "coinciding_uv": doubled})
+        write_json(
+            report, {"options": given_options(context), "stages": stages, "solve": solved, "coinciding_uv": doubled}
+        )
     if not quiet:
         print("\n".join(notes), end="\n" if notes else "", file=sys.stderr)
         solution = mapped.solution

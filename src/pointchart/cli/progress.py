@@ -4,6 +4,7 @@ import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from typing import Any
 
 from ..clock import StageClock
 
@@ -47,7 +48,8 @@ def staged(quiet: bool) -> Iterator[StageClock]:
 
 def _warn_of_first_run() -> None:
     """Say why the first run on a machine waits: the kernels are compiled once and kept."""
-    from .._kernels import stars
+    from .._kernels.stars import delaunay_stars
 
-    if not any(Path(stars.delaunay_stars._cache.cache_path).glob("stars.delaunay_stars*.nbi")):
+    cache: Any = vars(delaunay_stars)["_cache"]
+    if not any(Path(cache.cache_path).glob("stars.delaunay_stars*.nbi")):
         print("pointchart: first run on this machine: compiling its kernels, some 20 seconds, once", file=sys.stderr)
