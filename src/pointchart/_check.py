@@ -6,6 +6,8 @@ from numpy.typing import ArrayLike
 from .errors import InputError
 from .typing import Loop, Points
 
+SAMPLE = 64  # points looked at first: if they span a plane, so do all
+
 
 def check_points(points: ArrayLike, least: int = 4) -> Points:
     """Return points as a contiguous (n, 3) float64 array, or say what is wrong with them.
@@ -20,20 +22,27 @@ def check_points(points: ArrayLike, least: int = 4) -> Points:
         raise InputError(f"points have shape {array.shape}; (n, 3) is needed: one row of x, y, z for each point")
     if len(array) < least:
         raise InputError(f"the scan has {len(array)} points; a surface patch needs at least {least}")
-    broken = np.flatnonzero(~np.isfinite(array).all(axis=1))
-    if len(broken):
-        raise InputError(
-            f"{len(broken)} points are NaN or infinite, the first at index {broken[0]}; remove them from the scan"
-        )
-    centred = array - array[0]
-    extent = np.abs(centred).max()
-    if extent == 0.0:
-        raise InputError(f"all {len(array)} points are the same; a surface patch needs points that differ")
-    centred /= extent
-    farthest = centred[np.argmax(np.einsum("ij,ij->i", centred, centred))]
-    if np.abs(np.cross(centred, farthest)).max() <= 1e-12:
+    if not np.isfinite(array.sum()):  # one pass for the usual case: a sum of finite numbers of sane size is finite
+        broken = np.flatnonzero(~np.isfinite(array).all(axis=1))
+        if len(broken):
+            raise InputError(
+                f"{len(broken)} points are NaN or infinite, the first at index {broken[0]}; remove them from the scan"
+            )
+    if _is_on_line(array[:: max(1, len(array) // SAMPLE)]) and _is_on_line(array):
+        if (array == array[0]).all():
+            raise InputError(f"all {len(array)} points are the same; a surface patch needs points that differ")
         raise InputError(f"all {len(array)} points lie on one line, which bounds no surface; check the columns read")
     return array
+
+
+def _is_on_line(points: Points) -> bool:
+    centred = points - points[0]
+    extent = np.abs(centred).max()
+    if extent == 0.0:
+        return True
+    centred /= extent
+    farthest = centred[np.argmax(np.einsum("ij,ij->i", centred, centred))]
+    return bool(np.abs(np.cross(centred, farthest)).max() <= 1e-12)
 
 
 def check_loop(loop: ArrayLike, n_points: int) -> Loop:

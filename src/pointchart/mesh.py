@@ -41,7 +41,7 @@ def half_edges(triangles: Triangles, n_points: int) -> HalfEdges:
     origins = np.array(triangles, dtype=np.int64).ravel()
     targets = np.ascontiguousarray(np.roll(origins.reshape(-1, 3), -1, axis=1)).ravel()
     twins = np.empty_like(origins)
-    overfull = pair_half_edges(origins, n_points, np.empty(n_points + 1, np.int64), np.empty_like(origins), twins)
+    overfull = pair_half_edges(origins, n_points, twins)
     return HalfEdges(origins, targets, twins, int(overfull))
 
 

@@ -184,8 +184,12 @@ def spacing(points: ArrayLike, *, k: int = 6, around: Neighborhoods | None = Non
     """
     cloud = check_points(points)
     found = nearest(cloud, k) if around is None else around
-    closest = found.indices.reshape(len(cloud), -1)[:, :k]
-    return np.asarray(np.median(np.linalg.norm(cloud[closest] - cloud[:, None], axis=2), axis=1))
+    closest = found.indices.reshape(len(cloud), -1)
+    count = min(k, closest.shape[1])
+    # Neighbours are sorted by distance: the median is that of the middle one, or the mean of the middle two.
+    middle = {(count - 1) // 2, count // 2}
+    lengths = [np.linalg.norm(cloud[closest[:, place]] - cloud, axis=1) for place in middle]
+    return np.asarray(sum(lengths) / len(lengths))
 
 
 def break_ties(points: ArrayLike, spacing: Floats) -> Points:

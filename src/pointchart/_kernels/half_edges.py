@@ -1,5 +1,6 @@
 """Half-edges of a triangle mesh: half-edge 3 t + k runs from corner k of triangle t to its next corner."""
 
+import numpy as np
 from numba import njit
 
 
@@ -16,35 +17,34 @@ def preceding(h):
 
 
 @njit(cache=True, nogil=True)
-def pair_half_edges(corners, n_points, first, leaving, twin):
+def pair_half_edges(corners, n_points, twin):
     """Write the opposite of each half-edge to `twin`, -1 on the boundary; return how many edges are no manifold ones.
 
     An edge is none when two half-edges run the same way along it: more than two triangles, or opposite orientations.
-    `first` and `leaving` are scratch space for the half-edges that leave each point, (n + 1,) and (3 m,).
     """
-    first[:] = 0
-    for h in range(len(corners)):
-        first[corners[h] + 1] += 1
+    first = np.zeros(n_points + 2, np.int64)
+    for v in corners:
+        first[v + 2] += 1
     for v in range(n_points):
-        first[v + 1] += first[v]
+        first[v + 2] += first[v + 1]
+    # Half-edges bucketed by origin, their targets beside them, so that each search reads one short run of memory.
+    leaving, target = np.empty(len(corners), np.int64), np.empty(len(corners), np.int64)
     for h in range(len(corners)):
-        v = corners[h]
-        leaving[first[v]] = h
-        first[v] += 1
-    for v in range(n_points, 0, -1):
-        first[v] = first[v - 1]
-    first[0] = 0
-    broken = 0
-    for h in range(len(corners)):
-        a, b = corners[h], corners[following(h)]
-        twin[h] = -1
-        for e in range(first[b], first[b + 1]):
-            if corners[following(leaving[e])] == a:
-                twin[h] = leaving[e]
+        slot = first[corners[h] + 1]
+        leaving[slot], target[slot] = h, corners[following(h)]
+        first[corners[h] + 1] += 1
+    overfull = 0
+    for a in range(n_points):
         for e in range(first[a], first[a + 1]):
-            if leaving[e] != h and corners[following(leaving[e])] == b:
-                broken += 1
-    return broken
+            b, h = target[e], leaving[e]
+            twin[h] = -1
+            for k in range(first[b], first[b + 1]):
+                if target[k] == a:
+                    twin[h] = leaving[k]
+            for k in range(first[a], e):
+                if target[k] == b:
+                    overfull += 2
+    return overfull
 
 
 @njit(cache=True, nogil=True)
