@@ -46,8 +46,8 @@ def convex_discs(draw, largest=16):
     """
     rng = np.random.default_rng(draw(seeds))
     n_rim, n_inner = draw(st.integers(3, 9)), draw(st.integers(0, largest))
-    turn = 2 * np.pi * (np.arange(n_rim) + rng.uniform(0, 0.6, n_rim)) / n_rim
-    inner = 0.25 * np.sqrt(rng.random((n_inner, 1))) * _directions(rng.uniform(0, 2 * np.pi, n_inner))
+    turn = 2 * np.pi * (np.arange(n_rim) + rng.uniform(0, 0.3, n_rim)) / n_rim
+    inner = 0.15 * np.sqrt(rng.random((n_inner, 1))) * _directions(rng.uniform(0, 2 * np.pi, n_inner))
     if draw(st.booleans()):
         inner = inner[:1] + draw(st.sampled_from([1e-3, 1e-9, 1e-14])) * inner
     return np.r_[_directions(turn), np.unique(inner, axis=0)], np.arange(n_rim)

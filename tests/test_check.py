@@ -2,14 +2,13 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from strategies import clouds, seeds
 
 from pointchart._check import check_loop, check_points
 from pointchart._exact import orientation_signs
 from pointchart._parallel import CHUNK, over_ranges
 from pointchart.errors import FormatError, InputError, PointchartError, SolveError, name_some, points_called
 from pointchart.morton import morton_order
-
-from strategies import clouds, seeds
 
 SQUARE = np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]])
 
@@ -34,6 +33,11 @@ def test_broken_coordinates_are_counted_and_the_first_is_named(broken):
         check_points(points)
 
 
+def test_infinities_of_both_signs_are_counted():
+    with pytest.raises(InputError, match="2 points are NaN or infinite, the first at index 1"):
+        check_points(np.r_[SQUARE[:1], [[np.inf, 0, 0], [0, -np.inf, 0]], SQUARE])
+
+
 @pytest.mark.parametrize("place", [0.0, 5.4e6])
 def test_points_that_are_all_the_same_are_refused(place):
     with pytest.raises(InputError, match="all 7 points are the same"):
@@ -54,6 +58,14 @@ def test_good_points_come_back_unchanged(points):
         checked = check_points(given_points)
         assert checked.flags.c_contiguous
         assert np.array_equal(checked, points)
+
+
+@pytest.mark.parametrize("n", [5, 100, 10_001])
+@pytest.mark.parametrize("odd", [1, -2])
+def test_a_single_point_beside_a_line_is_enough_for_a_surface(n, odd):
+    line = np.outer(np.arange(n), [1.0, 2, 3])
+    line[odd] += [0, 0, 1]
+    assert np.array_equal(check_points(line), line)
 
 
 @pytest.mark.parametrize("scale", [1e-150, 1e-9, 1e9, 1e150])
@@ -101,7 +113,7 @@ def test_all_errors_have_one_parent(error):
 
 @pytest.mark.parametrize("error", [InputError, SolveError, FormatError])
 def test_errors_can_be_told_in_the_numbers_of_the_user(error):
-    with pytest.raises(error, match="points 30, 10 hang on 20$"), points_called(np.array([10, 20, 30])):
+    with pytest.raises(error, match=r"points 30, 10 hang on 20$"), points_called(np.array([10, 20, 30])):
         raise error("points {lost} hang on {through}", lost=[2, 0], through=1)
 
 

@@ -2,6 +2,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from strategies import rotations, seeds
 
 from pointchart.boundary.layout import (
     centripetal_steps,
@@ -16,8 +17,6 @@ from pointchart.boundary.layout import (
 )
 from pointchart.errors import InputError
 from pointchart.shapes import bent_sheet, grid, relief
-
-from strategies import rotations, seeds
 
 some_steps = st.lists(st.floats(1e-6, 1e3), min_size=4, max_size=60)
 STEPS = {uniform_steps: 0.0, centripetal_steps: 0.5, chord_length_steps: 1.0}
@@ -156,7 +155,7 @@ def test_corners_may_start_anywhere_on_the_loop():
 
 @pytest.mark.parametrize("steps", [[1, 0, 1], [1, -1, 1, 1], [1, 1], [1, np.nan, 1], [[1, 1, 1]]])
 def test_steps_that_are_not_positive_are_refused(steps):
-    with pytest.raises(InputError, match="steps along the boundary have to be positive, one for each of at least 3 points"):
+    with pytest.raises(InputError, match="steps along the boundary have to be positive, one for each"):
         on_circle(steps)
 
 

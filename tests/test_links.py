@@ -1,14 +1,13 @@
 import numpy as np
 import pytest
 from hypothesis import given, settings
+from strategies import clouds
 
 from pointchart.errors import InputError
 from pointchart.links import FAR_TRUST, LONE_TRUST, distrust_far, is_near, link_stars
 from pointchart.mesh import one_rings
 from pointchart.neighbors import Neighborhoods, delaunay_star, nearest
 from pointchart.shapes import add_noise, disc, fold
-
-from strategies import clouds
 
 
 def links_of(points, k=15):
@@ -20,7 +19,7 @@ def pairs_of(links):
     return dict(zip(zip(graph.rows.tolist(), graph.indices.tolist(), strict=True), links.trust, strict=True))
 
 
-@settings(max_examples=30)
+@settings(max_examples=20)
 @given(clouds())
 def test_links_are_symmetric_and_so_is_their_trust(points):
     found = pairs_of(links_of(points))
@@ -29,7 +28,7 @@ def test_links_are_symmetric_and_so_is_their_trust(points):
     assert all(i != j for i, j in found)
 
 
-@settings(max_examples=30)
+@settings(max_examples=20)
 @given(clouds())
 def test_links_are_exactly_the_pairs_of_which_one_star_holds_the_other(points):
     star = delaunay_star(points, nearest(points, 15))
@@ -47,7 +46,7 @@ def stars_triangles(star):
     return triangles
 
 
-@settings(max_examples=30)
+@settings(max_examples=20)
 @given(clouds())
 def test_a_link_has_full_trust_exactly_on_triangles_that_two_stars_hold(points):
     star = delaunay_star(points, nearest(points, 15))

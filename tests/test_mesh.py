@@ -1,11 +1,10 @@
 import numpy as np
 import pytest
 from hypothesis import given, settings
+from strategies import planar_discs
 
 from pointchart import shapes
 from pointchart.mesh import boundary_loops, fans, half_edges, one_rings
-
-from strategies import planar_discs
 
 
 def as_cycle(loop):

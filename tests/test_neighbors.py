@@ -2,12 +2,11 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from strategies import clouds, rotations, seeds
 
 from pointchart.errors import InputError
 from pointchart.neighbors import ball, break_ties, delaunay_star, from_pairs, nearest, normals, spacing
 from pointchart.shapes import bent_sheet, disc, grid, hemisphere
-
-from strategies import clouds, rotations, seeds
 
 
 def rows_of(neighborhoods):

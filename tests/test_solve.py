@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 import scipy.sparse as sp
 from hypothesis import assume, given, settings
+from strategies import systems
 
 from pointchart.errors import SolveError
 from pointchart.mesh import one_rings
@@ -22,15 +23,16 @@ from pointchart.solve import (
 )
 from pointchart.weights import mean_value, reciprocal_distance, uniform
 
-from strategies import systems
-
 GENERAL = [direct, Direct(), bicgstab, multigrid]
 SYMMETRIC = [cholesky, conjugate_gradient]
 ITERATIVE = [bicgstab, multigrid, conjugate_gradient]
 
 
 def named(solvers):
-    return {"argvalues": solvers, "ids": [solver.__name__ + ("*" if isinstance(solver, Direct) else "") for solver in solvers]}
+    return {
+        "argvalues": solvers,
+        "ids": [solver.__name__ + ("*" if isinstance(solver, Direct) else "") for solver in solvers],
+    }
 
 
 def matrix_of(shape, around, scheme):
@@ -40,7 +42,7 @@ def matrix_of(shape, around, scheme):
 
 @pytest.fixture(scope="module")
 def patch():
-    return relief(1500, seed=8)
+    return relief(1000, seed=8)
 
 
 @pytest.fixture(scope="module")
@@ -170,11 +172,11 @@ def test_an_order_of_elimination_serves_again_for_other_weights_of_the_same_size
 
 
 def test_nested_dissection_lists_every_unknown_once(general_matrix):
-    order = nested_dissection(sp.csr_array(sp.eye_array(1500) - general_matrix))
-    assert np.array_equal(np.sort(order), np.arange(1500))
+    order = nested_dissection(sp.csr_array(sp.eye_array(1000) - general_matrix))
+    assert np.array_equal(np.sort(order), np.arange(1000))
 
 
-@settings(max_examples=60)
+@settings(max_examples=40)
 @given(systems())
 def test_solutions_of_random_systems_solve_them(system):
     assume(all(system.reaches(i) for i in system.inner))
@@ -187,17 +189,19 @@ def test_solutions_of_random_systems_solve_them(system):
 @pytest.mark.parametrize("scheme", [uniform, reciprocal_distance])
 def test_balls_of_one_radius_have_a_symmetric_form(patch, scheme):
     matrix = matrix_of(patch, ball(patch.points, 2.7 * patch.spacing), scheme)
-    free = np.setdiff1d(np.arange(1500), patch.boundary)
+    free = np.setdiff1d(np.arange(1000), patch.boundary)
     left = sp.csr_array(sp.eye_array(len(free)) - matrix[free][:, free])
     symmetric, scale = symmetrize(left)
     assert (scale > 0).all()
     assert abs(symmetric - symmetric.T).max() < 1e-9 * abs(symmetric).max()
     assert abs(symmetric - sp.diags_array(scale) @ left).max() == 0
-    assert np.linalg.eigvalsh(((symmetric + symmetric.T) / 2).toarray()).min() > 0
+    assert np.diag(np.linalg.cholesky(symmetric.toarray())).min() > 0, "the form is not positive definite"
 
 
 @pytest.mark.parametrize("solver", **named(SYMMETRIC))
-def test_symmetric_solvers_refuse_weights_that_do_not_come_from_one_number_a_pair(patch, values, general_matrix, solver):
+def test_symmetric_solvers_refuse_weights_that_do_not_come_from_one_number_a_pair(
+    patch, values, general_matrix, solver
+):
     with pytest.raises(SolveError, match=r"no symmetric form \(4\.5\): those of points \d+, \d+ for each other differ"):
         solve_fixed(general_matrix, patch.boundary, values, solver=solver)
 
@@ -228,5 +232,5 @@ def test_a_solver_without_a_finite_answer_is_named(patch, values, general_matrix
 
 def test_a_singular_system_is_refused():
     pair = sp.csr_array([[0, 1, 0], [1, 0, 0], [0, 0, 0]])
-    with pytest.raises(SolveError, match="the factorization of 2 unknowns failed .*; use a larger neighbourhood"):
+    with pytest.raises(SolveError, match=r"the factorization of 2 unknowns failed .*; use a larger neighbourhood"):
         solve_fixed(pair, [2], [[1.0]])

@@ -3,11 +3,10 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from scipy.spatial import Delaunay
+from strategies import clouds, cocircular_sets, flat, integer_sets, planar_discs, rotations, seeds
 
 from pointchart.neighbors import STEEPEST, Neighborhoods, ball, delaunay_star, nearest, normals
 from pointchart.shapes import add_noise, fold, grid, relief
-
-from strategies import clouds, cocircular_sets, flat, integer_sets, planar_discs, rotations, seeds
 
 
 def star_pairs(star):
@@ -74,14 +73,14 @@ def test_the_star_by_inversion_equals_the_star_of_a_delaunay_triangulation(size)
         assert abs(widest_gap(uv[others] - uv[i]) - np.pi) < 1e-6, "only a gap of pi up to 1e-6 may be told otherwise"
 
 
-@settings(max_examples=150)
+@settings(max_examples=100)
 @given(integer_sets())
 def test_stars_of_grid_points_are_delaunay_exactly(uv):
     assume(np.linalg.matrix_rank(uv - uv[0]) == 2)
     assert_star_is_delaunay(uv)
 
 
-@settings(max_examples=60)
+@settings(max_examples=40)
 @given(cocircular_sets())
 def test_stars_of_points_on_one_circle_are_delaunay_exactly(uv):
     assert_star_is_delaunay(uv)
@@ -95,7 +94,7 @@ def test_a_star_is_open_exactly_where_the_point_lies_on_the_hull(uv):
         assert is_open == (widest_gap(np.delete(uv, i, axis=0) - uv[i]) > np.pi - 1e-7)
 
 
-@settings(max_examples=30)
+@settings(max_examples=20)
 @given(rotations(), st.sampled_from([1.0, 1e-9, 1e9]), st.integers(4, 9), st.integers(4, 9))
 def test_a_tilted_grid_has_symmetric_stars_of_four(rotation, scale, nx, ny):
     shape = grid(nx, ny)
@@ -120,13 +119,13 @@ def assert_turns_left(star):
         assert turn.sum() < np.pi + 1e-5 if star.is_open[i] else abs(turn.sum() - 2 * np.pi) < 1e-9
 
 
-@settings(max_examples=30)
+@settings(max_examples=20)
 @given(clouds())
 def test_stars_run_once_around_their_centre_anticlockwise(points):
     assert_turns_left(delaunay_star(points, nearest(points, 15)))
 
 
-@settings(max_examples=30)
+@settings(max_examples=20)
 @given(clouds())
 def test_local_positions_are_projections_to_the_plane(points):
     around = nearest(points, 15)
@@ -136,7 +135,7 @@ def test_local_positions_are_projections_to_the_plane(points):
     assert np.allclose((star.local**2).sum(axis=1), (offset**2).sum(axis=1) - height**2, rtol=1e-9)
 
 
-@settings(max_examples=30)
+@settings(max_examples=20)
 @given(clouds(), rotations(), st.tuples(*[st.floats(-100, 100)] * 3), st.floats(-9, 9))
 def test_stars_do_not_depend_on_place_and_size(points, rotation, shift, exponent):
     moved = 10.0**exponent * (points @ rotation.T + shift)
@@ -154,7 +153,7 @@ def test_stars_scaled_by_a_power_of_two_are_the_same_to_the_last_bit(points, exp
     assert np.array_equal(np.ldexp(one.local, exponent), other.local)
 
 
-@settings(max_examples=30)
+@settings(max_examples=20)
 @given(clouds(), seeds)
 def test_renumbered_points_have_renumbered_stars(points, seed):
     order = np.random.default_rng(seed).permutation(len(points))
@@ -194,7 +193,7 @@ def test_no_neighbour_is_steeper_than_the_limit(points):
 
 def test_a_parallel_sheet_is_left_out():
     shape = grid(9, 9)
-    sheets = np.r_[shape.points, shape.points + [0, 0, 2]]
+    sheets = np.r_[shape.points, shape.points + np.array([0, 0, 2])]
     star = delaunay_star(sheets, ball(sheets, 2.3), planes=nearest(sheets, 8))
     inner = np.flatnonzero(((shape.uv > 0) & (shape.uv < 8)).all(axis=1))
     for i in np.r_[inner, inner + 81]:

@@ -3,6 +3,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial import Delaunay
+from strategies import flat, planar_discs, rotations, seeds
 
 from pointchart._exact import orientation_signs
 from pointchart.boundary.layout import chord_length_steps, on_circle
@@ -14,8 +15,6 @@ from pointchart.shapes import tube
 from pointchart.swaps import swap_to_delaunay
 from pointchart.triangulate import triangulate
 from pointchart.weights import mean_value, reciprocal_distance, shape_preserving
-
-from strategies import flat, planar_discs, rotations, seeds
 
 MAPS = {
     "reciprocal weights on the 20 nearest": (reciprocal_distance, lambda points: nearest(points, 20)),
@@ -61,7 +60,7 @@ def test_any_triangulation_of_planar_points_ends_at_the_delaunay_triangulation(s
     assert swapped.n_swaps > 0
 
 
-@settings(max_examples=30)
+@settings(max_examples=15)
 @given(seeds, st.integers(0, 400))
 def test_swaps_of_any_mesh_keep_a_disc_and_its_boundary_and_end(seed, n_flips):
     shape = tube(2, n_around=10)
@@ -109,7 +108,8 @@ def map_and_mesh(points, loop, name):
 
 
 @pytest.mark.parametrize("name", MAPS)
-@pytest.mark.parametrize("shape", ["relief", "hemisphere", "cap of 150 degrees", "face"])
+# The rolled sheet is left out: a grid has two equally good diagonals in each cell.
+@pytest.mark.parametrize("shape", ["relief", "thinned relief", "hemisphere", "cap of 150 degrees", "tube", "face"])
 def test_every_map_of_the_right_topology_ends_in_the_same_mesh(disc_shape, shape, name):
     shape = disc_shape(shape)
     true = swap_to_delaunay(shape.points, shape.triangles).triangles
@@ -121,7 +121,7 @@ def test_every_map_of_the_right_topology_ends_in_the_same_mesh(disc_shape, shape
 def test_the_true_mesh_of_a_scanned_foot_is_found_by_every_map(scan, name):
     foot = scan("foot")
     found = map_and_mesh(foot.points, foot.loop, name)
-    assert f1(edges_of(found), edges_of(foot.triangles)) > 0.998
+    assert f1(edges_of(found), edges_of(foot.triangles)) > 0.999
 
 
 def test_the_mean_value_map_of_a_mesh_to_the_circle_is_one_to_one(any_disc):
@@ -131,7 +131,7 @@ def test_the_mean_value_map_of_a_mesh_to_the_circle_is_one_to_one(any_disc):
     assert (orientation_signs(uv, any_disc.triangles) == 1).all()
 
 
-@settings(max_examples=15)
+@settings(max_examples=8)
 @given(seeds)
 def test_even_a_mesh_with_random_edges_is_mapped_one_to_one(disc_shape, seed):
     shape = disc_shape("tube")

@@ -22,7 +22,9 @@ def check_points(points: ArrayLike, least: int = 4) -> Points:
         raise InputError(f"points have shape {array.shape}; (n, 3) is needed: one row of x, y, z for each point")
     if len(array) < least:
         raise InputError(f"the scan has {len(array)} points; a surface patch needs at least {least}")
-    if not np.isfinite(array.sum()):  # one pass for the usual case: a sum of finite numbers of sane size is finite
+    with np.errstate(invalid="ignore", over="ignore"):
+        total = array.sum()  # one pass for the usual case: a sum of finite numbers of sane size is finite
+    if not np.isfinite(total):
         broken = np.flatnonzero(~np.isfinite(array).all(axis=1))
         if len(broken):
             raise InputError(

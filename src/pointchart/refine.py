@@ -9,7 +9,7 @@ from .neighbors import Neighborhoods
 from .parameterize import Parameterization, parameterize
 from .solve import Solver
 from .swaps import Swapped
-from .triangulate import triangulate
+from .triangulate import separate, triangulate
 from .typing import UV, Loop, Points, Triangles
 from .weights import WeightScheme
 
@@ -59,7 +59,7 @@ def mesh_once(
     with clock("map"):
         first_map = parameterize(points, loop, layout, neighborhoods, weights=weights, solver=solver)
     with clock("triangulate"):
-        triangles = triangulate(first_map.uv, first_map.loop)
+        triangles = triangulate(separate(first_map.uv, first_map.loop), first_map.loop)
     with clock("swap"):
         return Meshed(neighborhoods, weights, first_map, swap(points, triangles), ())
 

@@ -3,6 +3,7 @@
 import numpy as np
 import startinpy
 from numpy.typing import ArrayLike
+from scipy.spatial import cKDTree
 
 from ._check import check_loop
 from ._kernels.peel import peel
@@ -10,6 +11,8 @@ from .errors import InputError, SolveError
 from .mesh import half_edges
 from .morton import morton_order
 from .typing import UV, Indices, Loop, Triangles
+
+GOLDEN_RATIO = 0.6180339887498949
 
 
 def triangulate(uv: ArrayLike, loop: ArrayLike) -> Triangles:
@@ -71,6 +74,35 @@ def coinciding(uv: UV) -> Indices:
     order = np.lexsort((uv[:, 1], uv[:, 0]))
     same = (uv[order[1:]] == uv[order[:-1]]).all(axis=1)
     return np.asarray(order[np.append(same, False) | np.insert(same, 0, False)])
+
+
+def separate(uv: UV, loop: Loop) -> UV:
+    """Move coinciding parameter points apart by a thousandth of the distance to the nearest other one.
+
+    Uniform weights may give points the same parameters (Proposition 4.1), and long protrusions exhaust double precision.
+    All such points still have to become vertices; edge swaps then repair what the arbitrary directions spoil. Boundary
+    points stay.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> square = np.array([[0.0, 0.0], [1, 0], [1, 1], [0, 1], [0.5, 0.5], [0.5, 0.5]])
+    >>> len(coinciding(separate(square, np.arange(4))))
+    0
+    """
+    doubled = coinciding(uv)
+    if len(doubled) == 0:
+        return uv
+    distinct, group = np.unique(uv, axis=0, return_inverse=True)
+    room = cKDTree(distinct).query(distinct, k=2)[0][:, 1][group.ravel()[doubled]]
+    inward = uv[loop].mean(axis=0) - uv[doubled]
+    # Directions within 60 degrees of inwards keep points that have fallen onto the boundary inside it.
+    turn = (np.arange(len(doubled)) * GOLDEN_RATIO % 1.0 - 0.5) * np.deg2rad(120.0) + np.arctan2(*inward.T[::-1])
+    reach = 1e-3 * room * (0.5 + 0.5 * np.arange(1, len(doubled) + 1) / len(doubled))
+    apart = uv.copy()
+    apart[doubled] += reach[:, None] * np.column_stack([np.cos(turn), np.sin(turn)])
+    apart[loop] = uv[loop]
+    return apart
 
 
 def _delaunay(uv: UV) -> Triangles:

@@ -1,0 +1,398 @@
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.spatial import cKDTree
+from strategies import rotations, seeds
+
+from pointchart import (
+    InputError,
+    PointchartError,
+    SolveError,
+    angular_gaps,
+    delaunay_star,
+    find_boundary,
+    hull_test,
+    nearest,
+    order_by_halves,
+    reconstruct,
+    shapes,
+    spacing,
+    survey_scan,
+)
+from pointchart.boundary import agreed_triangles, rims
+from pointchart.mesh import half_edges
+from pointchart.neighbors import break_ties
+from pointchart.orient import anticlockwise
+
+SMOOTH = {
+    "disc": lambda: shapes.disc(800, seed=1),
+    "hemisphere": lambda: shapes.hemisphere(900),
+    "cap of 150 degrees": lambda: shapes.hemisphere(900, angle=150),
+    "tube": lambda: shapes.tube(5, n_around=24),
+    "relief": lambda: shapes.relief(1000, seed=2),
+}
+RAGGED = {
+    "sculpture": lambda: shapes.sculpture(2000),
+    "noisy sculpture": lambda: shapes.add_noise(shapes.sculpture(2000)),
+    "laser scan": lambda: shapes.laser_scan(shapes.sculpted_face, lines=60),
+    "uneven density": lambda: shapes.thin(shapes.relief(2000, seed=3)),
+    "hairpin": lambda: shapes.fold(4),
+}
+GRIDS = {
+    "flat": lambda p: p,
+    "tilted": lambda p: p @ [[1, 0, 0.7], [0, 1, -0.4], [0, 0, 1]],
+    "sheared": lambda p: p @ [[1, 0, 0], [0.3, 1, 0], [0, 0, 1]],
+    "twice as wide": lambda p: p * [2, 1, 1],
+    "on a bowl": lambda p: np.c_[p[:, :2], ((p[:, :2] - 7) ** 2).sum(axis=1) / 40],
+}
+WAVES = {
+    "circle": lambda t: np.c_[np.cos(t), np.sin(t), 0 * t],
+    "ellipse": lambda t: np.c_[2 * np.cos(t), np.sin(t), 0 * t],
+    "saddle": lambda t: np.c_[2 * np.cos(t), np.sin(t), 0.3 * np.sin(3 * t)],
+    "wavy ellipse": lambda t: np.c_[2 * np.cos(t), np.sin(t), 0.3 * np.sin(5 * t)],
+}
+
+
+def found_loop(points):
+    survey = survey_scan(points)
+    return survey.cloud.rows[survey.loop]
+
+
+def as_cycle(loop):
+    loop = np.asarray(loop)
+    return np.roll(loop, -int(np.argmin(loop))).tolist()
+
+
+def either_way(loop):
+    return sorted([as_cycle(loop), as_cycle(loop[::-1])])
+
+
+def farthest(points, others):
+    """Return the largest distance of a point from the nearest of some others."""
+    return cKDTree(others).query(points)[0].max()
+
+
+def oriented(triangles):
+    turn = np.argmin(triangles, axis=1)[:, None]
+    return set(map(tuple, np.take_along_axis(triangles, (turn + np.arange(3)) % 3, axis=1).tolist()))
+
+
+def normals_of(points, triangles):
+    corner = points[triangles]
+    return np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
+
+
+def shares_of_steps(order, n):
+    """Return the share of steps of a cyclic order of 0..n-1 that go one forward, or one back, the larger one."""
+    steps = np.diff(np.r_[order, order[:1]]) % n
+    return max((steps == 1).mean(), (steps == n - 1).mean())
+
+
+# Detection
+
+
+@pytest.mark.parametrize("kind", GRIDS)
+def test_the_boundary_of_a_grid_is_found_exactly(kind):
+    sheet = shapes.grid(17, 13)
+    loop = found_loop(GRIDS[kind](sheet.points))
+    assert either_way(loop) == either_way(sheet.boundary)
+
+
+@pytest.mark.parametrize("angle", [5, 45, 90, 180, 270])
+def test_the_boundary_of_a_grid_rolled_up_lies_within_two_spacings_of_the_true_one(angle):
+    sheet = shapes.bent_sheet(angle)
+    loop = found_loop(sheet.points)
+    assert farthest(sheet.points[loop], sheet.points[sheet.boundary]) <= 2
+    assert farthest(sheet.points[sheet.boundary], sheet.points[loop]) <= 2
+
+
+@pytest.mark.parametrize("name", SMOOTH)
+def test_a_cleanly_sampled_boundary_is_found_exactly(name):
+    shape = SMOOTH[name]()
+    assert either_way(found_loop(shape.points)) == either_way(shape.boundary)
+
+
+@pytest.mark.parametrize("name", RAGGED)
+def test_a_ragged_boundary_is_found_to_within_two_spacings(name):
+    shape = RAGGED[name]()
+    loop = found_loop(shape.points)
+    assert farthest(shape.points[loop], shape.points[shape.boundary]) <= 2 * shape.spacing
+    assert farthest(shape.points[shape.boundary], shape.points[loop]) <= 2 * shape.spacing
+
+
+@pytest.mark.parametrize("name", ["foot5k", "fran", "demosthenes"])
+def test_the_boundary_of_a_real_scan_is_found_to_within_three_spacings(scan, name):
+    points, triangles, truth = scan(name)
+    ends = points[triangles[:, [0, 1]]]
+    step = np.median(np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1))
+    loop = found_loop(points)
+    assert farthest(points[loop], points[truth]) <= 3 * step
+    assert farthest(points[truth], points[loop]) <= 3 * step
+
+
+@given(rotations())
+@settings(max_examples=5)
+def test_the_boundary_does_not_depend_on_the_pose(rotation):
+    shape = shapes.relief(500, seed=2)
+    assert either_way(found_loop(shape.points @ rotation.T)) == either_way(shape.boundary)
+
+
+@given(st.integers(-40, 40))
+@settings(max_examples=5)
+def test_a_power_of_two_of_scale_changes_nothing(exponent):
+    shape = shapes.sculpture(700)
+    assert np.array_equal(found_loop(2.0**exponent * shape.points), found_loop(shape.points))
+
+
+@pytest.mark.parametrize("scale", [1e-9, 0.3, 1e9])
+def test_the_boundary_does_not_depend_on_the_unit(scale):
+    shape = shapes.sculpture(700)
+    assert as_cycle(found_loop(scale * shape.points)) == as_cycle(found_loop(shape.points))
+
+
+@given(seeds)
+@settings(max_examples=5)
+def test_the_boundary_does_not_depend_on_the_numbering(seed):
+    shape = shapes.sculpture(700)
+    order = np.random.default_rng(seed).permutation(len(shape.points))
+    assert as_cycle(order[found_loop(shape.points[order])]) == as_cycle(found_loop(shape.points))
+
+
+def test_angular_gaps_are_half_turns_on_a_straight_edge_and_three_quarters_at_a_corner():
+    sheet = shapes.grid(13, 11)
+    gaps = angular_gaps(sheet.points, nearest(sheet.points, 30)).reshape(11, 13)
+    assert gaps[0, 0] == pytest.approx(1.5 * np.pi)
+    assert gaps[0, 6] == pytest.approx(np.pi)
+    assert gaps[5, 6] < np.pi / 4
+
+
+def test_the_hull_test_finds_convex_boundaries_and_misses_concave_bends():
+    convex, hollow = shapes.disc(400, seed=1), shapes.annulus(60, 8)
+    is_found = hull_test(delaunay_star(convex.points, nearest(convex.points, 20)))
+    assert set(np.flatnonzero(is_found)) == set(convex.boundary)
+    is_found = hull_test(delaunay_star(hollow.points, nearest(hollow.points, 20)))
+    radius = np.linalg.norm(hollow.points, axis=1)
+    assert is_found[radius > 1 - 1e-9].all()
+    assert not is_found[radius < 1 - 1e-9].any()
+
+
+def test_the_hull_test_needs_stars():
+    sheet = shapes.grid(5, 5)
+    with pytest.raises(InputError, match="the hull test needs ordered neighbourhoods; use Delaunay stars"):
+        hull_test(nearest(sheet.points, 8))
+
+
+# Rims of agreeing triangles
+
+
+def test_agreed_triangles_have_at_most_two_at_an_edge(any_disc):
+    points, step = any_disc.points, spacing(any_disc.points)
+    triangles = agreed_triangles(points, delaunay_star(break_ties(points, step), nearest(points)), step)
+    edges = np.sort(triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
+    assert np.unique(edges, axis=0, return_counts=True)[1].max() <= 2
+
+
+def test_agreed_triangles_need_stars():
+    sheet = shapes.grid(5, 5)
+    with pytest.raises(InputError, match="only ordered neighbourhoods hold triangles; use Delaunay stars"):
+        agreed_triangles(sheet.points, nearest(sheet.points, 8), spacing(sheet.points))
+
+
+def test_the_rims_of_a_disc_are_its_boundary(any_disc):
+    (rim,) = rims(any_disc.triangles, len(any_disc.points))
+    assert either_way(rim) == either_way(any_disc.boundary)
+
+
+def test_a_surface_with_two_boundaries_has_two_rims():
+    ring = shapes.annulus(30, 5)
+    found = rims(ring.triangles, len(ring.points))
+    assert sorted(map(either_way, found)) == sorted(map(either_way, ring.loops))
+
+
+def test_a_closed_surface_has_no_rim():
+    ball = shapes.sphere(100)
+    assert rims(ball.triangles, 100) == []
+
+
+@given(seeds)
+def test_rims_are_simple_however_many_triangles_are_missing(seed):
+    shape = shapes.disc(60)
+    rng = np.random.default_rng(seed)
+    for rim in rims(shape.triangles[rng.random(len(shape.triangles)) < rng.random()], 60):
+        assert len(rim) >= 3
+        assert len(set(rim.tolist())) == len(rim)
+
+
+# What is no disc
+
+
+@pytest.mark.parametrize("name", ["disc", "relief"])
+def test_a_gap_in_the_scan_is_bridged_and_reported_and_the_outer_loop_kept(name):
+    shape = getattr(shapes, name)(1500, seed=4)
+    keep = np.linalg.norm(shape.uv - [0.1, 0.2], axis=1) > 0.2
+    result = reconstruct(shape.points[keep])
+    loop = np.flatnonzero(keep)[result.rows[result.loop]]
+    assert result.certificate.is_disc
+    assert either_way(loop) == either_way(shape.boundary)
+    (gap,) = result.evidence.bridges
+    distance = np.linalg.norm(shape.uv[keep][gap.points] - [0.1, 0.2], axis=1)
+    assert distance.max() < 0.2 + 3 * shape.spacing
+    assert gap.rim_length == pytest.approx(2 * np.pi * 0.2, rel=0.3)
+
+
+@pytest.mark.parametrize("size", [(96, 12), (60, 10)])
+def test_an_annulus_is_refused_by_naming_both_loops(size):
+    ring = shapes.annulus(*size)
+    inner, outer = sorted(ring.loops, key=lambda loop: np.linalg.norm(ring.points[loop[0]]))
+    with pytest.raises(SolveError, match="the surface has a second boundary, so it is no disc") as caught:
+        reconstruct(ring.points)
+    assert caught.value.points["here"][0] in outer
+    assert caught.value.points["there"][0] in inner
+    assert f"besides the loop of {len(outer)} points" in str(caught.value)
+    assert "0.50 times as long" in str(caught.value)
+
+
+@pytest.mark.parametrize("closed", [shapes.sphere(1000), shapes.torus(64, 24)], ids=["sphere", "torus"])
+def test_a_closed_surface_is_refused_as_closed(closed):
+    with pytest.raises(InputError, match=r"no boundary was found: .* closed surface .*; cut the scan open"):
+        reconstruct(closed.points)
+
+
+@pytest.mark.parametrize("apart", [(0, 0, 100), (40, 0, 0)])
+def test_two_sheets_are_refused_with_the_sizes_and_a_point_of_each(apart):
+    points = np.r_[shapes.grid(12, 9).points, shapes.grid(8, 7).points + np.array(apart)]
+    with pytest.raises(InputError, match="2 separate parts, of 108 and 56 points") as caught:
+        reconstruct(points)
+    first, second = caught.value.points["seeds"]
+    assert first < 108 <= second
+
+
+@pytest.mark.parametrize(
+    "strip", [{}, {"n_around": 64, "n_across": 7}, {"n_around": 128, "n_across": 13, "width": 0.8}]
+)
+def test_a_moebius_strip_is_refused(strip):
+    with pytest.raises(PointchartError, match=r"no disc|no boundary was found"):
+        reconstruct(shapes.moebius(**strip).points)
+
+
+@pytest.mark.parametrize("name", ["x_annulus", "x_closed_hand", "x_torus", "x_two_feet"])
+def test_real_scans_of_no_disc_are_refused(name, request):
+    folder = request.path.parents[2] / "shared" / "data" / name
+    if not folder.is_dir():
+        pytest.skip(f"the real scan {name} is not in {folder.parent}")
+    from pointchart import read_scan
+
+    with pytest.raises(PointchartError, match=r"no disc|no boundary was found|separate parts"):
+        reconstruct(read_scan(folder / "points.ply").points)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_noise_of_a_quarter_of_the_spacing_still_gives_a_disc(seed):
+    noisy = shapes.add_noise(shapes.sculpture(1500), sigma_in_spacings=0.25, seed=seed)
+    proof = reconstruct(noisy.points).certificate
+    assert proof.is_disc
+    assert proof.is_one_to_one
+
+
+@pytest.mark.parametrize("name", RAGGED)
+def test_the_candidates_are_ranked_by_marked_length(name):
+    points = RAGGED[name]().points
+    step = spacing(points)
+    found = find_boundary(points, delaunay_star(break_ties(points, step), nearest(points)), step)
+    lengths = [candidate.share * candidate.length for candidate in found.candidates]
+    assert lengths == sorted(lengths, reverse=True)
+    assert np.array_equal(found.loop, found.candidates[0].loop)
+
+
+# The paper's ordering
+
+
+@pytest.mark.parametrize("curve", WAVES)
+@pytest.mark.parametrize("n", [40, 41, 200])
+def test_ordering_by_halves_restores_the_order_of_a_closed_curve(curve, n):
+    turn = 2 * np.pi * np.arange(n) / n
+    members = np.random.default_rng(n).permutation(n)
+    assert shares_of_steps(order_by_halves(WAVES[curve](turn), members), n) == 1.0
+
+
+def test_ordering_by_halves_takes_the_plane_it_is_given():
+    turn = 2 * np.pi * np.arange(60) / 60
+    for normal in ([0, 1, 0], [1, 1, 0], [1, 0, 0]):
+        loop = order_by_halves(WAVES["circle"](turn), np.arange(60), normal=normal)
+        assert shares_of_steps(loop, 60) == 1.0
+
+
+def test_ordering_by_halves_returns_its_members_once():
+    shape = shapes.hemisphere(300)
+    members = shape.boundary[::2]
+    assert sorted(order_by_halves(shape.points, members)) == sorted(members)
+
+
+def test_a_half_without_points_is_refused():
+    points = np.array([[0.0, 0, 0], [0.1, 1, 0], [0.2, 2, 0], [0.1, 3, 0], [-9.0, 1.5, 0]])
+    with pytest.raises(InputError, match="the plane leaves 1 boundary points on one side; each half needs at least 3"):
+        order_by_halves(points, np.arange(5), normal=[1, 0, 0])
+
+
+def test_boundary_points_in_clusters_ask_for_a_larger_k():
+    turn = np.deg2rad([0, 1, 2, 3, 50, 51, 52, 53, 140, 141, 142, 200, 201, 202, 300, 301, 302])
+    with pytest.raises(InputError, match="have no path to the ends of their half; use a larger k"):
+        order_by_halves(WAVES["circle"](turn), np.arange(len(turn)), k=2)
+
+
+def test_paper_boundary_of_the_bunny_by_hull_test_and_halves(scan):
+    points, _, truth = scan("bunny30571")
+    is_found = hull_test(delaunay_star(points, nearest(points, 20)))
+    members = truth[is_found[truth]]
+    assert 0.2 <= len(members) / len(truth) <= 0.35
+    place = np.full(len(points), -1)
+    place[members] = np.arange(len(members))
+    order = order_by_halves(points, np.sort(members), k=6)
+    assert shares_of_steps(place[order], len(members)) > 0.8
+
+
+# Orientation
+
+
+@pytest.mark.parametrize("name", ["hemisphere", "relief"])
+def test_a_loop_reversed_turned_or_closed_gives_the_same_mesh(name):
+    shape = SMOOTH[name]()
+    loop = shape.boundary
+    meshes = [
+        oriented(reconstruct(shape.points, given).triangles)
+        for given in (loop, loop[::-1], np.roll(loop, 17), np.append(loop, loop[0]), loop.tolist())
+    ]
+    assert all(mesh == meshes[0] for mesh in meshes)
+
+
+@given(rotations())
+@settings(max_examples=5)
+def test_triangles_of_a_cap_face_away_from_its_centre_in_any_pose(rotation):
+    cap = shapes.hemisphere(300)
+    points = cap.points @ rotation.T
+    triangles = reconstruct(points).triangles
+    assert (np.einsum("ij,ij->i", normals_of(points, triangles), points[triangles].mean(axis=1)) > 0).all()
+
+
+@pytest.mark.parametrize("upside_down", [1, -1])
+@pytest.mark.parametrize("seed", range(3))
+def test_triangles_of_level_terrain_face_upwards(upside_down, seed):
+    points = shapes.relief(400, seed=seed).points * [1, 1, upside_down]
+    assert (normals_of(points, reconstruct(points).triangles)[:, 2] > 0).all()
+
+
+def test_the_parameters_turn_the_way_the_triangles_do(any_disc):
+    result = reconstruct(any_disc.points, any_disc.boundary)
+    corner = result.uv[result.triangles]
+    first, second = corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0]
+    assert (first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0] > 0).all()
+    edges = half_edges(result.triangles, len(result.rows))
+    ahead = dict(zip(edges.origins[edges.twins < 0].tolist(), edges.targets[edges.twins < 0].tolist(), strict=True))
+    assert [ahead[i] for i in result.loop.tolist()] == np.roll(result.loop, -1).tolist()
+
+
+def test_a_mirrored_cap_turns_the_other_way():
+    tent = np.array([[1.0, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0], [0, 0, 2]])
+    assert anticlockwise(tent, np.array([0, 1, 2, 3])).tolist() == [0, 1, 2, 3]
+    assert anticlockwise(tent * [1, 1, -1], np.array([0, 1, 2, 3])).tolist() == [0, 3, 2, 1]
