@@ -378,7 +378,7 @@ def test_a_repeated_boundary_point_in_the_rows_of_repeated_points_is_named():
 def test_two_rows_of_one_point_on_the_boundary_are_the_same_point_twice():
     shape = shapes.grid(8, 6)
     with pytest.raises(InputError, match="boundary points 0 are named more than once"):
-        reconstruct(np.r_[shape.points, shape.points[:1]], np.append(shape.boundary, 48))
+        reconstruct(np.r_[shape.points, shape.points[:1]], np.insert(shape.boundary, 5, 48))
 
 
 def test_corners_off_the_boundary_are_named_by_their_rows():

@@ -17,7 +17,10 @@ def check_points(points: ArrayLike, least: int = 4) -> Points:
     InputError
         On a wrong shape, fewer than `least` points, NaN or infinity, or points that all lie on one line.
     """
-    array = np.ascontiguousarray(points, dtype=np.float64)
+    try:
+        array = np.ascontiguousarray(points, dtype=np.float64)
+    except (TypeError, ValueError) as reason:
+        raise InputError(f"points are no array of numbers ({reason}); give x, y, z for each") from None
     if array.ndim != 2 or array.shape[1] != 3:
         raise InputError(f"points have shape {array.shape}; (n, 3) is needed: one row of x, y, z for each point")
     if len(array) < least:

@@ -96,7 +96,10 @@ def ball(points: ArrayLike, radius: float | Floats) -> Neighborhoods:
     array([1, 3, 2, 2])
     """
     cloud = check_points(points)
-    radii = np.broadcast_to(np.asarray(radius, dtype=np.float64), len(cloud))
+    radii = np.asarray(radius, dtype=np.float64)
+    if radii.shape not in ((), (len(cloud),)):
+        raise InputError(f"the radii have shape {radii.shape}; give one, or one for each of the {len(cloud)} points")
+    radii = np.broadcast_to(radii, len(cloud))
     if not np.all(radii > 0.0):
         raise InputError(
             f"the radius is {radii.min():g}; it has to be positive, some 2 to 4 times the spacing of the points"

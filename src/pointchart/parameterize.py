@@ -171,7 +171,9 @@ def _convex_matrix(weights: ArrayLike, neighborhoods: Neighborhoods, loop: Loop)
         )
     sums = np.bincount(neighborhoods.rows, values, n)
     sums[loop] = 1.0
-    negative = np.flatnonzero(~(values >= 0.0))
+    is_inner = np.ones(n, bool)
+    is_inner[loop] = False
+    negative = np.flatnonzero(~(values > 0.0) & is_inner[neighborhoods.rows])
     if len(negative) or not np.all(np.abs(sums - 1.0) < 1e-9):
         culprit = neighborhoods.rows[negative[0]] if len(negative) else int(np.argmax(np.abs(sums - 1.0)))
         raise InputError(

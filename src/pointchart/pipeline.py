@@ -327,8 +327,8 @@ def _check_proof(proof: Certificate, chart: ChartRule) -> None:
     if chart is uv_on_mesh and not proof.is_one_to_one:
         raise SolveError(
             f"the parameters are not one-to-one: {proof.flat_or_folded_uv} triangles are flat and "
-            f"{proof.coinciding_uv} points coincide, since a part of the surface is too long for its neck in double "
-            "precision; cut that part off"
+            f"{proof.coinciding_uv} points coincide: a part of the surface is too long for its neck in double "
+            "precision, or too narrow for a straight side of the domain; cut that part off, or use the circle"
         )
 
 

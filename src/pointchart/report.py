@@ -27,6 +27,7 @@ CHECKS = (
 def certificate_lines(proof: Certificate) -> list[str]:
     """Write a certificate as a checklist, one check a line."""
     lines = [_line(getattr(proof, field) == 0, name, text, getattr(proof, field)) for name, field, text in CHECKS]
+    lines.append(_line(proof.parts == 1, "one part", "there are {}", proof.parts))
     lines.append(_line(proof.euler == 1, "Euler characteristic 1", "it is {}", proof.euler))
     lines.append(_line(proof.boundary_loops == 1, "one boundary loop", "there are {}", proof.boundary_loops))
     if proof.boundary_as_given is not None:
@@ -109,6 +110,7 @@ def certificate_report(proof: Certificate) -> dict[str, Any]:
     return {
         "disc": proof.is_disc,
         "every_point_used": proof.unused_points == 0,
+        "parts": proof.parts,
         "euler": proof.euler,
         "boundary_loops": proof.boundary_loops,
         "boundary_as_given": proof.boundary_as_given,

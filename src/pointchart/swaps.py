@@ -6,11 +6,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ._check import check_points
-from ._exact import orientation_signs
 from ._kernels.swaps import MOST_SWAPS_OF_A_TRIANGLE, are_joined, delaunay_swaps, swap
-from .errors import SolveError
 from .mesh import HalfEdges, half_edges
-from .typing import UV, Indices, Loop, Points, Triangles
+from .typing import UV, Indices, Loop, Mask, Points, Triangles
+
+STRAIGHT = 1e-9  # sine of the turn under which boundary points lie on one side of the domain
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -90,7 +90,7 @@ def swap_off_sides(mesh: Swapped, loop: Loop, boundary_uv: UV) -> Swapped:
     """Swap away inner edges whose two ends lie on the same straight side of the domain.
 
     They are the one exception of Tutte's theorem: such an edge is mapped into the side, and its triangles go flat. On a
-    circle there are none.
+    circle there are none. An edge that cannot be swapped stays, and shows in the certificate.
 
     Parameters
     ----------
@@ -104,11 +104,6 @@ def swap_off_sides(mesh: Swapped, loop: Loop, boundary_uv: UV) -> Swapped:
     -------
     Swapped
 
-    Raises
-    ------
-    SolveError
-        If such an edge cannot be swapped.
-
     References
     ----------
     Floater 2003, One-to-one piecewise linear mappings over triangulations, theorem 4.1.
@@ -121,44 +116,45 @@ def swap_off_sides(mesh: Swapped, loop: Loop, boundary_uv: UV) -> Swapped:
     >>> swap_off_sides(ear, np.arange(5), square).n_swaps
     1
     """
-    b = len(loop)
-    places = np.arange(b)
-    is_corner = orientation_signs(boundary_uv, np.column_stack([places - 1, places, (places + 1) % b])) != 0
-    if is_corner.all():
-        return mesh
-    # Side s runs from corner s to the next; a point belongs to the sides of both its loop edges.
-    ahead = np.full(mesh.triangles.max() + 1, -1)
-    behind = ahead.copy()
-    side = (np.cumsum(is_corner) - 1) % is_corner.sum()
-    ahead[loop], behind[loop] = side, np.roll(side, 1)
+    ahead, behind = _sides(mesh.triangles.max() + 1, loop, boundary_uv)
     edges = half_edges(mesh.triangles, len(ahead))
-    n_swaps, flat = 0, _on_one_side(edges, ahead, behind)
-    while len(flat):
-        done = sum(_swap_if_possible(edges, h) for h in flat.tolist())
-        edges = half_edges(edges.origins.reshape(-1, 3), len(ahead))
-        before, flat = len(flat), _on_one_side(edges, ahead, behind)
-        n_swaps += done
-        if len(flat) >= before:
-            raise SolveError(
-                f"{len(flat)} inner edges join points of one straight side of the domain (points {{ends}}) and cannot "
-                "be swapped, so the map would be flat there; use the circle",
-                ends=np.unique(edges.origins[flat]),
-            )
+    n_swaps, improves = 0, True
+    while improves:
+        flat = np.flatnonzero(
+            _share_a_side(ahead, behind, edges.origins, edges.targets) & (edges.twins > np.arange(len(edges.twins)))
+        )
+        done = sum(_swap_off(edges, h, ahead, behind) for h in flat.tolist())
+        n_swaps, improves = n_swaps + done, done > 0
+        if improves:
+            edges = half_edges(edges.origins.reshape(-1, 3), len(ahead))
     return Swapped(edges.origins.reshape(-1, 3), mesh.n_swaps + n_swaps, mesh.is_settled)
 
 
-def _on_one_side(edges: HalfEdges, ahead: Indices, behind: Indices) -> Indices:
-    a, b = edges.origins, edges.targets
-    shared = (ahead[a] >= 0) & (ahead[b] >= 0)
-    shared &= (ahead[a] == ahead[b]) | (ahead[a] == behind[b]) | (behind[a] == ahead[b]) | (behind[a] == behind[b])
-    return np.flatnonzero(shared & (edges.twins > np.arange(len(a))))
+def _sides(n_points: int, loop: Loop, boundary_uv: UV) -> tuple[Indices, Indices]:
+    """Return the number of the straight side ahead of each boundary point, and of that behind it; -1 elsewhere."""
+    steps = np.roll(boundary_uv, -1, axis=0) - boundary_uv
+    before = np.roll(steps, 1, axis=0)
+    turn = before[:, 0] * steps[:, 1] - before[:, 1] * steps[:, 0]
+    is_corner = turn > STRAIGHT * np.linalg.norm(steps, axis=1) * np.linalg.norm(before, axis=1)
+    side = (np.cumsum(is_corner) - 1) % max(is_corner.sum(), 1)
+    ahead, behind = np.full(n_points, -1), np.full(n_points, -1)
+    ahead[loop], behind[loop] = side, np.roll(side, 1)
+    return ahead, behind
 
 
-def _swap_if_possible(edges: HalfEdges, h: int) -> bool:
-    back = h - h % 3 + (h + 2) % 3
-    t = int(edges.twins[h])
-    opposite = int(edges.origins[t - t % 3 + (t + 2) % 3])
-    if are_joined(edges.origins, edges.twins, back, opposite):
+def _share_a_side(ahead: Indices, behind: Indices, a: Indices, b: Indices) -> Mask:
+    same = (ahead[a] == ahead[b]) | (ahead[a] == behind[b]) | (behind[a] == ahead[b]) | (behind[a] == behind[b])
+    return np.asarray(same & (ahead[a] >= 0) & (ahead[b] >= 0))
+
+
+def _swap_off(edges: HalfEdges, h: int, ahead: Indices, behind: Indices) -> bool:
+    """Swap half-edge h if it still lies along a side and its replacement does not."""
+    corners, t = edges.origins, int(edges.twins[h])
+    h_back, t_back = h - h % 3 + (h + 2) % 3, t - t % 3 + (t + 2) % 3
+    one, other = corners[[h, h_back]], corners[[t, t_back]]
+    if _share_a_side(ahead, behind, one, other).tolist() != [True, False]:
         return False
-    swap(edges.origins, edges.twins, h)
+    if are_joined(corners, edges.twins, h_back, int(other[1])):
+        return False
+    swap(corners, edges.twins, h)
     return True

@@ -52,11 +52,11 @@ def triangulate(uv: ArrayLike, loop: ArrayLike) -> Triangles:
     rim = check_loop(loop, len(plane))
     triangles = _peel_to_loop(_delaunay(plane), rim, len(plane))
     if len(triangles) != 2 * len(plane) - 2 - len(rim):
-        outside = np.setdiff1d(np.arange(len(plane)), triangles)
+        outside = np.setdiff1d(np.setdiff1d(np.arange(len(plane)), triangles), rim)
+        named = " points {outside} lie on or outside it;" if len(outside) else ""
         raise SolveError(
             f"the parameter points do not fill the boundary loop: {len(triangles)} triangles instead of "
-            f"{2 * len(plane) - 2 - len(rim)}, points {{outside}} on or outside it; use another boundary or a larger "
-            "neighbourhood",
+            f"{2 * len(plane) - 2 - len(rim)};{named} use another boundary or a larger neighbourhood",
             outside=outside,
         )
     return triangles
@@ -79,9 +79,9 @@ def coinciding(uv: UV) -> Indices:
 def separate(uv: UV, loop: Loop) -> UV:
     """Move coinciding parameter points apart by a thousandth of the distance to the nearest other one.
 
-    Uniform weights may give points the same parameters (Proposition 4.1), and long protrusions exhaust double precision.
-    All such points still have to become vertices; edge swaps then repair what the arbitrary directions spoil. Boundary
-    points stay.
+    Uniform weights may give points the same parameters (Proposition 4.1), and long protrusions exhaust double
+    precision. All such points still have to become vertices; edge swaps then repair what the arbitrary directions
+    spoil. Boundary points stay.
 
     Examples
     --------
@@ -98,7 +98,7 @@ def separate(uv: UV, loop: Loop) -> UV:
     inward = uv[loop].mean(axis=0) - uv[doubled]
     # Directions within 60 degrees of inwards keep points that have fallen onto the boundary inside it.
     turn = (np.arange(len(doubled)) * GOLDEN_RATIO % 1.0 - 0.5) * np.deg2rad(120.0) + np.arctan2(*inward.T[::-1])
-    reach = 1e-3 * room * (0.5 + 0.5 * np.arange(1, len(doubled) + 1) / len(doubled))
+    reach = np.maximum(1e-3 * room, 1e-15) * (0.5 + 0.5 * np.arange(1, len(doubled) + 1) / len(doubled))
     apart = uv.copy()
     apart[doubled] += reach[:, None] * np.column_stack([np.cos(turn), np.sin(turn)])
     apart[loop] = uv[loop]

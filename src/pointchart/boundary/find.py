@@ -83,7 +83,7 @@ def find_boundary(points: ArrayLike, star: Neighborhoods, spacing: Floats) -> Fo
     Examples
     --------
     >>> from pointchart import shapes
-    >>> from pointchart.neighbors import delaunay_star, spacing
+    >>> from pointchart.neighbors import break_ties, delaunay_star, nearest, spacing
     >>> sheet = shapes.grid(12, 9)
     >>> step = spacing(sheet.points)
     >>> star = delaunay_star(break_ties(sheet.points, step), nearest(sheet.points))

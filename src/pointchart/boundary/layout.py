@@ -127,7 +127,7 @@ def on_polygon(steps: Floats, vertices: ArrayLike, corners: Indices) -> UV:
     for k in range(c):
         side = (places[k] + np.arange(ahead[k])) % b
         along = (np.cumsum(lengths[side]) - lengths[side]) / lengths[side].sum()
-        uv[side] = (1.0 - along)[:, None] * polygon[k] + along[:, None] * polygon[(k + 1) % c]
+        uv[side] = polygon[k] + along[:, None] * (polygon[(k + 1) % c] - polygon[k])
     return uv
 
 
