@@ -1,4 +1,4 @@
-"""Draw the figures of Floater and Reimers 2001 from our own runs: Figures 1 to 3 and 5 to 8.
+"""Draw the figures of Floater and Reimers 2001 from our own runs: Figures 1 to 8.
 
     python benchmarks/figures.py OUT_DIR [--data DIR] [--only 5 8]
 
@@ -23,7 +23,7 @@ from matplotlib.patches import Circle
 from paper_scans import DATA, Scan, load_scans, run
 from PIL import Image
 
-from pointchart.boundary.layout import chord_length_steps, on_circle
+from pointchart.boundary import chord_length_steps, on_circle, order_by_halves
 from pointchart.neighbors import Neighborhoods, ball, delaunay_star
 from pointchart.parameterize import parameterize
 from pointchart.quality import area_vectors, edge_lengths
@@ -162,6 +162,27 @@ def draw_balls(
     frame(ax, points)
 
 
+def figure_4(scans: dict[str, Scan]) -> Figure:
+    """Draw the boundary of the foot, cut by a plane, each half in the order of its univariate parameters."""
+    scan = scans["Foot"]
+    figure, (ax,) = panels(1, 1, 6.0)
+    members = np.random.default_rng(0).permutation(scan.loop)
+    ordered = scan.points[order_by_halves(scan.points, members)]
+    centred = ordered - ordered.mean(axis=0)
+    axes = np.linalg.svd(centred, full_matrices=False)[2]
+    flat = centred @ axes[:2].T
+    is_upper = flat[:, 0] >= 0.0
+    is_upper = is_upper if is_upper[0] else ~is_upper
+    for half, color in ((flat[is_upper], BLUE), (flat[~is_upper], ORANGE)):
+        ax.plot(*half.T, color=color, linewidth=1.6)
+        ax.scatter(*half.T, s=26, color=color, zorder=3)
+        for place in (0, len(half) - 1):
+            ax.annotate(str(place + 1), half[place], textcoords="offset points", xytext=(8, 6), color=color)
+    ax.axvline(0.0, color=GREY, linewidth=1.0, linestyle="--")
+    frame(ax, flat)
+    return figure
+
+
 def figure_5(scans: dict[str, Scan]) -> Figure:
     return methods_2_and_3(scans["Foot"])
 
@@ -221,6 +242,7 @@ FIGURES: dict[int, Callable[[dict[str, Scan]], Figure]] = {
     1: figure_1,
     2: figure_2,
     3: figure_3,
+    4: figure_4,
     5: figure_5,
     6: figure_6,
     7: figure_7,

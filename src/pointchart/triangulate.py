@@ -71,6 +71,9 @@ def coinciding(uv: UV) -> Indices:
     >>> coinciding(np.array([[0.0, 1.0], [2.0, 2.0], [0.0, 1.0]]))
     array([0, 2])
     """
+    order = np.argsort(uv[:, 0])
+    if (uv[order[1:], 0] != uv[order[:-1], 0]).all():
+        return np.empty(0, np.int64)
     order = np.lexsort((uv[:, 1], uv[:, 0]))
     same = (uv[order[1:]] == uv[order[:-1]]).all(axis=1)
     return np.asarray(order[np.append(same, False) | np.insert(same, 0, False)])
@@ -126,4 +129,5 @@ def _peel_to_loop(triangles: Triangles, rim: Loop, n_points: int) -> Triangles:
     successor[rim] = np.roll(rim, -1)
     removed = np.zeros(len(triangles), np.bool_)
     peel(edges.origins, edges.twins, successor, np.empty(len(edges.origins), np.int64), removed)
-    return triangles[~removed]
+    kept = triangles[~removed]
+    return kept[np.argsort(kept[:, 0], kind="stable")]  # near in memory what is near in space

@@ -81,7 +81,9 @@ def _order_half(cloud: Points, half: Indices, height: Floats, k: int) -> Loop:
 
 
 def _end_points(half: Points, height: Floats, reach: float) -> Indices:
-    """Find the ends of a half: the point next to the plane, and the one farthest from it among those within reach."""
+    """Find the ends of a half: the point next to the plane, and the one next to it where the other end must be."""
     one = int(np.argmin(height))
     near = np.flatnonzero(height <= height[one] + reach)
-    return np.array([one, near[np.argmax(np.linalg.norm(half[near] - half[one], axis=1))]])
+    distance = np.linalg.norm(half[near] - half[one], axis=1)
+    opposite = near[distance >= 0.5 * distance.max()]
+    return np.array([one, opposite[np.argmin(height[opposite])]])
