@@ -431,7 +431,5 @@ def test_the_survey_holds_the_boundary_given():
 
 def test_a_part_too_long_for_its_neck_is_refused():
     finger = shapes.tube(60, n_around=12)
-    with pytest.raises(
-        SolveError, match=r"not one-to-one: .* too long for its neck in double precision; cut that part off"
-    ):
+    with pytest.raises(SolveError, match=r"not one-to-one: .* too long for its neck in double precision"):
         reconstruct(finger.points, finger.boundary, layout=square_layout)
