@@ -2,8 +2,9 @@
 
     python benchmarks/stages.py [--points 5000 20000 80000 320000] [--repeats 3]
 
-The scan is simulated (a sculpted face without noise). Each figure is the median of the repeats, after one run that does not
-count; the exponent is the slope of log time over log points. Machines differ and are noisy: compare ratios, not seconds.
+The scan is simulated (a sculpted face without noise). Each figure is the median of the repeats, after one run that
+does not count; the exponent is the slope of log time over log points. Machines differ and are noisy: compare ratios,
+not seconds.
 """
 
 import argparse

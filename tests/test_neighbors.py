@@ -109,11 +109,11 @@ def test_spacing_scales_with_the_points(points, exponent):
 
 @settings(max_examples=20)
 @given(clouds(), st.floats(-9, 9))
-def test_ties_are_broken_by_less_than_a_ten_thousandth_of_the_spacing_and_always_the_same_way(points, exponent):
+def test_ties_are_broken_by_less_than_a_hundredth_of_the_spacing_and_always_the_same_way(points, exponent):
     scaled = 10.0**exponent * points
     local = spacing(scaled)
     moved = break_ties(scaled, local)
-    assert (np.abs(moved - scaled) <= 1.0001e-4 * local[:, None]).all()
+    assert (np.abs(moved - scaled) <= 1.0001e-2 * local[:, None]).all()
     assert np.array_equal(moved, break_ties(scaled, local))
 
 

@@ -296,7 +296,7 @@ def test_fewer_than_four_points_are_refused(n):
 @pytest.mark.parametrize("n", [4, 5, 6])
 def test_a_handful_of_points_without_a_boundary_asks_for_one(n):
     points = np.r_[SQUARE, [[0.4, 0.5, 0.1], [0.7, 0.6, 0.1]]][:n]
-    with pytest.raises(InputError, match=r"no boundary was found.*or give the boundary"):
+    with pytest.raises(InputError, match=r"no boundary was found.*too few.*give the boundary"):
         reconstruct(points)
 
 

@@ -21,6 +21,10 @@ def over_ranges(kernel: Callable[[int, int], object], n: int) -> None:
     [(0, 3)]
     """
     ranges = [(first, min(first + CHUNK, n)) for first in range(0, n, CHUNK)]
-    with ThreadPoolExecutor(n_threads()) as pool:
+    pool = ThreadPoolExecutor(n_threads())
+    try:
         for done in [pool.submit(kernel, first, last) for first, last in ranges]:
             done.result()
+    finally:
+        # After an interrupt nothing new begins, and the few ranges under way end before their arrays can go.
+        pool.shutdown(cancel_futures=True)

@@ -7,7 +7,15 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ._check import check_loop, check_points
-from .boundary import Candidate, chord_length_on_circle, find_boundary
+from .boundary import (
+    BOUNDARY_GAP,
+    GAP_NEIGHBORS,
+    Candidate,
+    angular_gaps,
+    check_order,
+    chord_length_on_circle,
+    find_boundary,
+)
 from .bridges import Bridge, find_bridges
 from .certify import Certificate, certify
 from .clock import StageClock
@@ -182,13 +190,12 @@ def reconstruct(
     clock, solver = clock or StageClock(), solver or Direct()
     survey = survey_scan(points, loop, clock=clock)
     cloud, rim = survey.cloud, survey.loop
+    boundary_uv = layout(survey.scan, cloud.rows[rim])
     with points_called(cloud.rows):
         meshed = _mesh(survey, connect, weights, swap, solver, clock)
         bridges = find_bridges(cloud.points, meshed.swapped.triangles, survey.spacing)
-        if loop is None:
-            _check_bridges(survey.candidates[0], bridges)
+        _check_bridges(survey, bridges)
         with clock("parameters"):
-            boundary_uv = layout(survey.scan, cloud.rows[rim])
             meshed = replace(meshed, swapped=swap_off_sides(meshed.swapped, rim, boundary_uv))
             mapped = chart(cloud.points, boundary_uv, rim, meshed, solver)
         with clock("certify"):
@@ -229,18 +236,19 @@ def survey_scan(points: ArrayLike, loop: ArrayLike | None = None, *, clock: Stag
     with clock("prepare"):
         scan = check_points(points)
         cloud = prepare(scan)
+        given = None if loop is None else check_loop(loop, len(scan))
     with points_called(cloud.rows):
         with clock("neighbours"):
             around = nearest(cloud.points, NEAREST)
             spacing = local_spacing(cloud.points, around=around)
             star = delaunay_star(break_ties(cloud.points, spacing), around)
         with clock("boundary"):
-            if loop is None:
+            if given is None:
                 found = find_boundary(cloud.points, star, spacing)
                 rim, candidates = found.loop, found.candidates
             else:
-                given = cloud.places[check_loop(loop, len(cloud.places))]
-                rim, candidates = check_loop(given, len(cloud.points)), []
+                rim, candidates = check_loop(cloud.places[given], len(cloud.points)), []
+                check_order(cloud.points, rim)
             rim = anticlockwise(cloud.points, rim)
     return Survey(scan, cloud, star, spacing, rim, candidates)
 
@@ -275,11 +283,11 @@ def parameterize_scan(
     clock = clock or StageClock()
     survey = survey_scan(points, loop, clock=clock)
     cloud, rim = survey.cloud.points, survey.loop
+    boundary_uv = layout(survey.scan, survey.cloud.rows[rim])
     with points_called(survey.cloud.rows):
         with clock("neighbours"):
             neighborhoods = (connect or _default_stars)(cloud * survey.cloud.scale)
         with clock("map"):
-            boundary_uv = layout(survey.scan, survey.cloud.rows[rim])
             mapped = parameterize(cloud, rim, boundary_uv, neighborhoods, weights=weights, solver=solver)
     return survey, mapped
 
@@ -307,16 +315,37 @@ def _mesh(
     return mesh_once(points, rim, circle, neighborhoods, weights=weights, swap=swap, solver=solver, clock=clock)
 
 
-def _check_bridges(chosen: Candidate, bridges: list[Bridge]) -> None:
-    """Refuse a found boundary when the mesh bridges a gap that may as well be the boundary."""
-    for bridge in bridges:
-        length, count = bridge.rim_length / chosen.length, len(bridge.points) / len(chosen.loop)
-        if length >= SECOND_BOUNDARY and count >= SECOND_BOUNDARY:
+def _check_bridges(survey: Survey, bridges: list[Bridge]) -> None:
+    """Refuse a surface that is no disc: it shows as a bridge with a good part of the boundary's length and points.
+
+    Over a hole, the points along the bridge have an angular gap. A boundary that was found may then be the wrong one;
+    one that was given is taken at its word. A bridge elsewhere means a surface that cannot be flattened, such as a
+    handle.
+    """
+    points, loop = survey.cloud.points, survey.loop
+    length = np.linalg.norm(points[np.roll(loop, -1)] - points[loop], axis=1).sum()
+    large = [
+        bridge
+        for bridge in bridges
+        if bridge.rim_length >= SECOND_BOUNDARY * length and len(bridge.points) >= SECOND_BOUNDARY * len(loop)
+    ]
+    if not large:
+        return
+    is_boundary = angular_gaps(points, nearest(points, GAP_NEIGHBORS)) > BOUNDARY_GAP
+    for bridge in large:
+        if is_boundary[bridge.points].mean() < 0.5:
             raise SolveError(
-                f"the surface has a second boundary, so it is no disc: besides the loop of {len(chosen.loop)} points "
-                f"that passes point {{here}} there is a gap of {len(bridge.points)} points, {length:.2f} times as "
-                "long, at point {there}; give the boundary with --boundary, or close the gap",
-                here=chosen.loop[0],
+                f"the surface is no disc: a patch of {len(bridge.points)} points at point {{there}} is joined by edges "
+                "of over four spacings although the scan has no gap there, as on a handle or a twist; cut it open",
+                there=bridge.points[0],
+            )
+        if survey.candidates:
+            raise SolveError(
+                f"the surface has a second boundary, so it is no disc: besides the loop of {len(loop)} points that "
+                f"passes point {{here}} there is a gap of {len(bridge.points)} points, "
+                f"{bridge.rim_length / length:.2f} times as long, at point {{there}}; give the boundary "
+                "with --boundary, or close the gap",
+                here=loop[0],
                 there=bridge.points[0],
             )
 

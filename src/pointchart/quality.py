@@ -1,8 +1,10 @@
 """Measures of meshes and maps, one function each."""
 
 import numpy as np
+from scipy.spatial import cKDTree
 
 from .mesh import half_edges
+from .neighbors import search
 from .typing import UV, Floats, Indices, Points, Triangles
 
 
@@ -131,6 +133,4 @@ def least_distance(uv: UV) -> float:
     >>> least_distance(np.array([[0.0, 0.0], [3.0, 0.0], [3.0, 1.0]]))
     1.0
     """
-    from scipy.spatial import cKDTree
-
-    return float(cKDTree(uv).query(uv, k=2, workers=-1)[0][:, 1].min())
+    return float(search(cKDTree(uv), uv, 2)[0][:, 1].min())

@@ -77,6 +77,7 @@ def run_report(
     """
     points = scan[result.rows]
     solution = result.evidence.meshed.first_map.solution
+    stretch = l2_stretch(points, result.triangles, result.uv)
     ratios = radius_ratios(points, result.triangles)
     steps = np.linalg.norm(points[result.loop] - points[np.roll(result.loop, -1)], axis=1)
     return {
@@ -99,7 +100,7 @@ def run_report(
         "certificate": certificate_report(result.certificate),
         "quality": {
             "radius_ratio": {"least": float(ratios.min()), "median": float(np.median(ratios))},
-            "l2_stretch": l2_stretch(points, result.triangles, result.uv),
+            "l2_stretch": stretch if np.isfinite(stretch) else None,
             "least_uv_distance": least_distance(result.uv),
         },
     }
@@ -139,7 +140,7 @@ def solve_report(solution: Solution) -> dict[str, Any]:
 def write_json(path: Path, report: dict[str, Any]) -> None:
     """Write a report as JSON."""
     with replacing(path) as temporary:
-        temporary.write_text(json.dumps(report, indent=1, allow_nan=True) + "\n", encoding="utf-8")
+        temporary.write_text(json.dumps(report, indent=1, allow_nan=False) + "\n", encoding="utf-8")
 
 
 def peak_memory_mb() -> int:

@@ -113,7 +113,7 @@ def _delaunay(uv: UV) -> Triangles:
     if len(doubled):
         raise SolveError(
             f"the parameters of {len(doubled)} points coincide with those of others (points {{doubled}}), so they "
-            "cannot be triangulated; use reciprocal or mean value weights, or a larger neighbourhood",
+            "cannot be triangulated; use other weights or a larger neighbourhood",
             doubled=doubled,
         )
     order = morton_order(uv)

@@ -102,9 +102,9 @@ def find_boundary(points: ArrayLike, star: Neighborhoods, spacing: Floats) -> Fo
     if not good:
         longest = max((c.length for c in found if c.share >= LEAST_SHARE), default=0.0)
         raise InputError(
-            "no boundary was found: the points seem to lie on a closed surface "
-            f"(the longest gap is {longest / scale:.0f} spacings round, {SHORTEST:.0f} are needed); "
-            "cut the scan open, or give the boundary"
+            f"no boundary was found: no loop of boundary points is {SHORTEST:.0f} spacings long (the longest has "
+            f"{longest / scale:.0f}), so these {len(cloud)} points are too few or lie on a closed surface; give the "
+            "boundary, or cut the scan open"
         )
     good.sort(key=lambda c: -c.share * c.length)
     return FoundBoundary(good[0].loop, good, gaps)

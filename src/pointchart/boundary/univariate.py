@@ -11,7 +11,7 @@ from ..solve import solve_fixed
 from ..typing import Floats, Indices, Loop, Points
 
 
-def order_by_halves(points: ArrayLike, members: ArrayLike, *, normal: ArrayLike | None = None, k: int = 4) -> Loop:
+def order_by_halves(points: ArrayLike, members: ArrayLike, *, normal: ArrayLike | None = None, k: int = 8) -> Loop:
     """Order boundary points the paper's way: cut by a plane, each half ordered by a linear system on the line.
 
     In each half the two end points next to the plane go to 0 and 1, and every other point to a convex combination of
@@ -35,7 +35,7 @@ def order_by_halves(points: ArrayLike, members: ArrayLike, *, normal: ArrayLike 
     Raises
     ------
     InputError
-        If a half has fewer than 3 members, or some of them have no path to its ends.
+        If a half has fewer than 3 members, or some of them have no path to both of its ends.
 
     References
     ----------
@@ -70,10 +70,10 @@ def _order_half(cloud: Points, half: Indices, height: Floats, k: int) -> Loop:
     matrix = sp.csr_array((1.0 / distance.ravel(), (rows, found.ravel())), shape=(len(half), len(half)))
     reached = sp.csgraph.breadth_first_order(matrix.T.tocsr(), ends[0], return_predecessors=False)
     also = sp.csgraph.breadth_first_order(matrix.T.tocsr(), ends[1], return_predecessors=False)
-    lost = np.setdiff1d(np.arange(len(half)), np.union1d(reached, also))
+    lost = np.setdiff1d(np.arange(len(half)), np.intersect1d(reached, also))
     if len(lost):
         raise InputError(
-            "boundary points {lost} have no path to the ends of their half; use a larger k", lost=half[lost]
+            "boundary points {lost} have no path to both ends of their half; use a larger k", lost=half[lost]
         )
     matrix = sp.csr_array(sp.diags_array(1.0 / matrix.sum(axis=1)) @ matrix)
     parameter = solve_fixed(matrix, ends, np.array([[0.0], [1.0]])).values[:, 0]

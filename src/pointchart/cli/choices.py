@@ -74,9 +74,11 @@ SWAPS: dict[Swap, SwapRule] = {Swap.delaunay: swaps.swap_to_delaunay, Swap.none:
 CHARTS: dict[Chart, ChartRule] = {Chart.mesh: pipeline.uv_on_mesh, Chart.paper: pipeline.uv_of_points}
 
 
-def connect_rule(kind: Neighbors | None, k: int | None, radius: float | None) -> Connect | None:
+def connect_rule(
+    kind: Neighbors | None, k: int | None, radius: float | None, weighting: Weighting | None
+) -> Connect | None:
     """Return the function that finds neighbourhoods as asked for; None leaves the choice to the library."""
-    if kind is None and k is None and radius is None:
+    if kind is None and k is None and radius is None and weighting is None:
         return None
     if radius is not None and not radius > 0.0:
         raise InputError(f"--radius is {radius:g}; it has to be positive, some 2 to 4 times the spacing of the points")

@@ -25,7 +25,7 @@ def mesh(
     neighbors: given.NeighborsOption = None,
     k: given.KOption = None,
     radius: given.RadiusOption = None,
-    weights: given.WeightsOption = Weighting.mean_value,
+    weights: given.WeightsOption = None,
     domain: given.DomainOption = Domain.circle,
     corners: given.CornersOption = None,
     spacing: given.SpacingOption = Spacing.chord,
@@ -41,7 +41,7 @@ def mesh(
     check_output(out, suffixes=MESH_SUFFIXES, inputs=inputs)
     if report is not None:
         check_output(report, suffixes=(".json",), inputs=[*inputs, out])
-    connect, layout = connect_rule(neighbors, k, radius), layout_rule(domain, spacing, corners)
+    connect, layout = connect_rule(neighbors, k, radius, weights), layout_rule(domain, spacing, corners)
     read = read_scan(scan)
     loop = None if boundary is None else read_loop(boundary)
     with staged(quiet) as clock:
@@ -49,7 +49,7 @@ def mesh(
             read.points,
             loop,
             connect=connect,
-            weights=WEIGHTS[weights],
+            weights=WEIGHTS[weights or Weighting.mean_value],
             swap=SWAPS[swap],
             layout=layout,
             chart=CHARTS[uv],

@@ -29,7 +29,10 @@ KOption = Annotated[
     int | None, typer.Option("-k", min=1, help="Number of nearest points that neighbours are taken from.")
 ]
 RadiusOption = Annotated[float | None, typer.Option("--radius", help="Radius of the ball, in the unit of the scan.")]
-WeightsOption = Annotated[Weighting, typer.Option("--weights", help="Convex weights, together with --neighbors.")]
+WeightsOption = Annotated[
+    Weighting | None,
+    typer.Option("--weights", help="Convex weights of the paper's methods instead of trusted links; else mean-value."),
+]
 DomainOption = Annotated[
     Domain, typer.Option("--domain", help="Convex domain of the parameters: unit circle or unit square.")
 ]

@@ -27,7 +27,7 @@ def param(
     neighbors: given.NeighborsOption = None,
     k: given.KOption = None,
     radius: given.RadiusOption = None,
-    weights: given.WeightsOption = Weighting.mean_value,
+    weights: given.WeightsOption = None,
     domain: given.DomainOption = Domain.circle,
     corners: given.CornersOption = None,
     spacing: given.SpacingOption = Spacing.chord,
@@ -39,12 +39,17 @@ def param(
     check_output(out, suffixes=UV_SUFFIXES, inputs=inputs)
     if report is not None:
         check_output(report, suffixes=(".json",), inputs=[*inputs, out])
-    connect, layout = connect_rule(neighbors, k, radius), layout_rule(domain, spacing, corners)
+    connect, layout = connect_rule(neighbors, k, radius, weights), layout_rule(domain, spacing, corners)
     read = read_scan(scan)
     loop = None if boundary is None else read_loop(boundary)
     with staged(quiet) as clock:
         survey, mapped = parameterize_scan(
-            read.points, loop, connect=connect, weights=WEIGHTS[weights], layout=layout, clock=clock
+            read.points,
+            loop,
+            connect=connect,
+            weights=WEIGHTS[weights or Weighting.mean_value],
+            layout=layout,
+            clock=clock,
         )
     uv = mapped.uv[survey.cloud.places]
     notes = write_uv(out, uv, points=read.points, attributes=carried(read, np.arange(len(uv))))
