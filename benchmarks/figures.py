@@ -24,6 +24,7 @@ from paper_scans import DATA, Scan, load_scans, run
 from PIL import Image
 
 from pointchart.boundary import chord_length_steps, on_circle, order_by_halves
+from pointchart.mesh import half_edges
 from pointchart.neighbors import Neighborhoods, ball, delaunay_star
 from pointchart.parameterize import parameterize
 from pointchart.quality import area_vectors, edge_lengths
@@ -75,7 +76,7 @@ def draw_mesh(ax: Axes, points: Points, triangles: Triangles, label: str, line_w
 
 def draw_parameters(ax: Axes, uv: UV, triangles: Triangles, line_width: float = 0.15) -> None:
     """Draw the triangulation of the parameters."""
-    ends = edge_lengths(np.c_[uv, np.zeros(len(uv))], triangles)[0]
+    ends = edge_lengths(np.c_[uv, np.zeros(len(uv))], half_edges(triangles, len(uv)))[0]
     ax.add_collection(LineCollection(uv[ends], colors=INK, linewidths=line_width))
     frame(ax, uv)
 

@@ -9,7 +9,7 @@ def main() -> int:
     points = pc.prepare(shapes.sculpture(1500).points).points
     around = pc.nearest(points, 20)
     star = pc.delaunay_star(points, around)
-    loop = pc.find_boundary(points, star, pc.spacing(points, around=around)).loop
+    loop = pc.find_boundary(points, around=around).loop
     first = pc.parameterize(points, loop, pc.chord_length_on_circle(points, loop), star)
     print(f"{first.solution.unknowns} unknowns solved, residual {first.solution.residual:.0e}")
     mesh = pc.swap_to_delaunay(points, pc.triangulate(first.uv, first.loop))

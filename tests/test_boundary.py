@@ -307,8 +307,7 @@ def test_noise_of_a_quarter_of_the_spacing_still_gives_a_disc(seed):
 @pytest.mark.parametrize("name", RAGGED)
 def test_the_candidates_are_ranked_by_marked_length(name):
     points = RAGGED[name]().points
-    step = spacing(points)
-    found = find_boundary(points, delaunay_star(break_ties(points, step), nearest(points)), step)
+    found = find_boundary(points)
     lengths = [candidate.share * candidate.length for candidate in found.candidates]
     assert lengths == sorted(lengths, reverse=True)
     assert np.array_equal(found.loop, found.candidates[0].loop)

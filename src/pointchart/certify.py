@@ -136,7 +136,7 @@ def certify(
     plane = None if uv is None else np.asarray(uv, dtype=np.float64)
     if plane is not None and plane.shape != (len(cloud), 2):
         raise InputError(f"uv has shape {plane.shape}; {len(cloud)} points need ({len(cloud)}, 2)")
-    ends, lengths = edge_lengths(cloud, faces)
+    ends, lengths = edge_lengths(cloud, edges)
     local = (local_spacing(cloud) if spacing is None else spacing)[ends].max(axis=1)
     return Certificate(
         n_points=len(cloud),
@@ -151,7 +151,7 @@ def certify(
         coinciding_uv=None if plane is None else len(coinciding(plane)),
         flat_or_folded_uv=None if plane is None else int((orientation_signs(plane, faces) <= 0).sum()),
         longest_edge_over_spacing=float((lengths / local).max()) if len(faces) else 0.0,
-        folds=int((dihedral_angles(cloud, faces) > FOLD_ANGLE).sum()),
+        folds=int((dihedral_angles(cloud, faces, edges) > FOLD_ANGLE).sum()),
     )
 
 

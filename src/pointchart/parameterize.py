@@ -11,7 +11,7 @@ from ._kernels.graphs import dominators
 from .errors import InputError, SolveError
 from .neighbors import Neighborhoods
 from .solve import Solution, Solver, solve_fixed
-from .typing import UV, Indices, Loop
+from .typing import UV, Indices, Loop, Points
 from .weights import WeightScheme, mean_value
 
 
@@ -98,6 +98,13 @@ def parameterize(
     if neighborhoods.n_points != len(cloud):
         raise InputError(f"the neighbourhoods are those of {neighborhoods.n_points} points, not of {len(cloud)}")
     check_connected(neighborhoods, rim)
+    return solve_map(cloud, rim, layout, neighborhoods, weights=weights, solver=solver)
+
+
+def solve_map(
+    cloud: Points, rim: Loop, layout: UV, neighborhoods: Neighborhoods, *, weights: WeightScheme, solver: Solver | None
+) -> Parameterization:
+    """Parameterize points whose neighbourhoods are known to be connected to the boundary; see `parameterize`."""
     matrix = _convex_matrix(weights(cloud, neighborhoods), neighborhoods, rim)
     solution = solve_fixed(matrix, rim, layout, solver=solver)
     return Parameterization(_inside(solution.values, layout), rim, solution)

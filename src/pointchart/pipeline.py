@@ -22,10 +22,10 @@ from .clock import StageClock
 from .errors import SolveError, points_called
 from .links import link_stars
 from .mesh import one_rings
-from .neighbors import Neighborhoods, break_ties, delaunay_star, nearest
+from .neighbors import Neighborhoods, delaunay_star, nearest
 from .neighbors import spacing as local_spacing
 from .orient import anticlockwise
-from .parameterize import Parameterization, parameterize
+from .parameterize import Parameterization, parameterize, solve_map
 from .prepare import Cloud, prepare
 from .refine import Meshed, SwapRule, mesh_once, mesh_repeatedly
 from .solve import Direct, Solver
@@ -119,7 +119,7 @@ class Survey:
 def uv_on_mesh(points: Points, boundary_uv: UV, loop: Loop, meshed: Meshed, solver: Solver) -> Parameterization:
     """Map the mesh by mean value weights: one-to-one, by Tutte's and Floater's theorem."""
     rings = one_rings(meshed.swapped.triangles, len(points))
-    return parameterize(points, loop, boundary_uv, rings, weights=mean_value, solver=solver)
+    return solve_map(points, loop, boundary_uv, rings, weights=mean_value, solver=solver)
 
 
 def uv_of_points(points: Points, boundary_uv: UV, loop: Loop, meshed: Meshed, solver: Solver) -> Parameterization:
@@ -241,10 +241,10 @@ def survey_scan(points: ArrayLike, loop: ArrayLike | None = None, *, clock: Stag
         with clock("neighbours"):
             around = nearest(cloud.points, NEAREST)
             spacing = local_spacing(cloud.points, around=around)
-            star = delaunay_star(break_ties(cloud.points, spacing), around)
+            star = delaunay_star(cloud.points, around)
         with clock("boundary"):
             if given is None:
-                found = find_boundary(cloud.points, star, spacing)
+                found = find_boundary(cloud.points, around=around, spacing=spacing)
                 rim, candidates = found.loop, found.candidates
             else:
                 rim, candidates = check_loop(cloud.places[given], len(cloud.points)), []

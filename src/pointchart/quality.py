@@ -3,13 +3,13 @@
 import numpy as np
 from scipy.spatial import cKDTree
 
-from .mesh import half_edges
+from .mesh import HalfEdges
 from .neighbors import search
 from .typing import UV, Floats, Indices, Points, Triangles
 
 
-def edge_lengths(points: Points, triangles: Triangles) -> tuple[Indices, Floats]:
-    """List every edge once with its length.
+def edge_lengths(points: Points, edges: HalfEdges) -> tuple[Indices, Floats]:
+    """List every edge of a mesh once with its length.
 
     Returns
     -------
@@ -19,10 +19,10 @@ def edge_lengths(points: Points, triangles: Triangles) -> tuple[Indices, Floats]
     Examples
     --------
     >>> import numpy as np
-    >>> edge_lengths(np.array([[0.0, 0, 0], [3, 0, 0], [3, 4, 0]]), np.array([[0, 1, 2]]))[1]
+    >>> from pointchart.mesh import half_edges
+    >>> edge_lengths(np.array([[0.0, 0, 0], [3, 0, 0], [3, 4, 0]]), half_edges(np.array([[0, 1, 2]]), 3))[1]
     array([3., 4., 5.])
     """
-    edges = half_edges(triangles, len(points))
     kept = edges.twins < np.arange(len(edges.twins))
     ends = np.column_stack([edges.origins[kept], edges.targets[kept]])
     return ends, np.asarray(np.linalg.norm(points[ends[:, 0]] - points[ends[:, 1]], axis=1))
@@ -41,17 +41,18 @@ def area_vectors(points: Points, triangles: Triangles) -> Floats:
     return np.asarray(0.5 * np.cross(b - a, c - a))
 
 
-def dihedral_angles(points: Points, triangles: Triangles) -> Floats:
+def dihedral_angles(points: Points, triangles: Triangles, edges: HalfEdges) -> Floats:
     """Measure by how much the surface turns at each inner edge: 0 where it is flat, pi where it folds back, in radians.
 
     Examples
     --------
     >>> import numpy as np
     >>> corner = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, -1]])
-    >>> np.rad2deg(dihedral_angles(corner, np.array([[0, 1, 2], [1, 0, 3]]))).round(6)
+    >>> from pointchart.mesh import half_edges
+    >>> faces = np.array([[0, 1, 2], [1, 0, 3]])
+    >>> np.rad2deg(dihedral_angles(corner, faces, half_edges(faces, 4))).round(6)
     array([90.])
     """
-    edges = half_edges(triangles, len(points))
     inner = np.flatnonzero(edges.twins > np.arange(len(edges.twins)))
     vectors = area_vectors(points, triangles)
     one, other = vectors[inner // 3], vectors[edges.twins[inner] // 3]

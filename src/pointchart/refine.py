@@ -86,8 +86,9 @@ def mesh_repeatedly(
             points, loop, layout, current.neighborhoods, weights=trusted(current), swap=swap, solver=solver, clock=clock
         )
         with clock("compare"):
-            near = is_near(links, meshed.swapped.triangles)
-            contradicted = 1.0 - float(near[links.trust == 1.0].mean())
+            is_far = ~is_near(links, meshed.swapped.triangles)
+            # On a grid no star agrees with another, and all links are trusted alike.
+            contradicted = float(is_far[links.trust == links.trust.max()].mean())
             if not history or contradicted < min(history):
                 best = meshed
             gains = not history or contradicted < LEAST_GAIN * min(history)

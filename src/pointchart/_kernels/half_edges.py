@@ -33,17 +33,18 @@ def pair_half_edges(corners, n_points, twin):
         slot = first[corners[h] + 1]
         leaving[slot], target[slot] = h, corners[following(h)]
         first[corners[h] + 1] += 1
+    twin[:] = -1
     overfull = 0
     for a in range(n_points):
         for e in range(first[a], first[a + 1]):
-            b, h = target[e], leaving[e]
-            twin[h] = -1
-            for k in range(first[b], first[b + 1]):
-                if target[k] == a:
-                    twin[h] = leaving[k]
+            b = target[e]
             for k in range(first[a], e):
                 if target[k] == b:
                     overfull += 2
+            if b < a:
+                for k in range(first[b], first[b + 1]):
+                    if target[k] == a:
+                        twin[leaving[e]], twin[leaving[k]] = leaving[k], leaving[e]
     return overfull
 
 

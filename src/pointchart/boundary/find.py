@@ -8,7 +8,8 @@ from numpy.typing import ArrayLike
 
 from .._check import check_points
 from ..errors import InputError
-from ..neighbors import Neighborhoods, nearest
+from ..neighbors import Neighborhoods, break_ties, delaunay_star, nearest
+from ..neighbors import spacing as local_spacing
 from ..typing import Floats, Loop, Mask, Points
 from .detect import BOUNDARY_GAP, angular_gaps
 from .rims import agreed_triangles, rims
@@ -55,7 +56,9 @@ class FoundBoundary:
     gaps: Floats
 
 
-def find_boundary(points: ArrayLike, star: Neighborhoods, spacing: Floats) -> FoundBoundary:
+def find_boundary(
+    points: ArrayLike, *, around: Neighborhoods | None = None, spacing: Floats | None = None
+) -> FoundBoundary:
     """Find the boundary loop of a scan.
 
     Triangles on which neighbouring stars agree form a surface, whose rims are loops in order: the boundary, gaps of the
@@ -66,10 +69,10 @@ def find_boundary(points: ArrayLike, star: Neighborhoods, spacing: Floats) -> Fo
     ----------
     points : (n, 3) array
         Distinct points.
-    star : Neighborhoods
-        Delaunay stars.
-    spacing : (n,) array
-        Local spacing.
+    around : Neighborhoods, optional
+        About 20 nearest points of each, if they have been found already.
+    spacing : (n,) array, optional
+        Local spacing; measured, if not given.
 
     Returns
     -------
@@ -83,21 +86,19 @@ def find_boundary(points: ArrayLike, star: Neighborhoods, spacing: Floats) -> Fo
     Examples
     --------
     >>> from pointchart import shapes
-    >>> from pointchart.neighbors import break_ties, delaunay_star, nearest, spacing
-    >>> sheet = shapes.grid(12, 9)
-    >>> step = spacing(sheet.points)
-    >>> star = delaunay_star(break_ties(sheet.points, step), nearest(sheet.points))
-    >>> found = find_boundary(sheet.points, star, step)
-    >>> len(found.loop)
+    >>> len(find_boundary(shapes.grid(12, 9).points).loop)
     38
     """
     cloud = check_points(points)
+    candidates = around or nearest(cloud)
+    step = local_spacing(cloud, around=candidates) if spacing is None else spacing
+    star = delaunay_star(break_ties(cloud, step), candidates)
     check_one_piece(star)
     gaps = angular_gaps(cloud, nearest(cloud, GAP_NEIGHBORS))
     found = [
-        measure(cloud, loop, gaps > BOUNDARY_GAP) for loop in rims(agreed_triangles(cloud, star, spacing), len(cloud))
+        measure(cloud, loop, gaps > BOUNDARY_GAP) for loop in rims(agreed_triangles(cloud, star, step), len(cloud))
     ]
-    scale = float(np.median(spacing))
+    scale = float(np.median(step))
     good = [c for c in found if c.share >= LEAST_SHARE and c.length >= SHORTEST * scale]
     if not good:
         longest = max((c.length for c in found if c.share >= LEAST_SHARE), default=0.0)
