@@ -34,7 +34,7 @@ from pointchart import (
     uv_of_points,
     uv_on_mesh,
 )
-from pointchart.boundary import places_of
+from pointchart.boundary import chord_length_on_circle, places_of
 from pointchart.mesh import half_edges
 
 SIMULATED = {
@@ -429,7 +429,13 @@ def test_the_survey_holds_the_boundary_given():
     assert set(survey.cloud.rows[survey.loop]) == set(shape.boundary)
 
 
-def test_a_part_too_long_for_its_neck_is_refused():
+@pytest.mark.parametrize("layout", [chord_length_on_circle, square_layout])
+def test_a_finger_of_sixty_radii_is_opened_one_to_one(layout):
     finger = shapes.tube(60, n_around=12)
-    with pytest.raises(SolveError, match=r"not one-to-one: .* too long for its neck in double precision"):
-        reconstruct(finger.points, finger.boundary, layout=square_layout)
+    assert reconstruct(finger.points, finger.boundary, layout=layout).certificate.is_one_to_one
+
+
+def test_a_part_so_long_that_its_map_collapses_is_refused():
+    finger = shapes.tube(150)
+    with pytest.raises(SolveError, match=r"the surface is no disc: .* so long that its map collapses"):
+        reconstruct(finger.points, finger.boundary)

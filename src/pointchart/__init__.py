@@ -21,6 +21,7 @@ from .boundary import (
     uniform_steps,
 )
 from .certify import Certificate, certify
+from .chart import uv_of_points, uv_on_mesh
 from .clock import StageClock
 from .errors import FormatError, InputError, PointchartError, SolveError
 from .io import Scan, read_loop, read_scan, write_loop, write_mesh, write_uv
@@ -28,7 +29,7 @@ from .links import Links, distrust_far, link_stars, trusted
 from .mesh import boundary_loops, one_rings
 from .neighbors import Neighborhoods, ball, delaunay_star, nearest, normals, spacing
 from .parameterize import Parameterization, parameterize
-from .pipeline import Reconstruction, parameterize_scan, reconstruct, survey_scan, uv_of_points, uv_on_mesh
+from .pipeline import Reconstruction, parameterize_scan, reconstruct, survey_scan
 from .prepare import Cloud, prepare
 from .quality import l2_stretch, least_distance, radius_ratios, stretches
 from .solve import Solution, bicgstab, cholesky, conjugate_gradient, direct, multigrid, solve_fixed

@@ -18,14 +18,14 @@ from .boundary import (
 )
 from .bridges import Bridge, find_bridges
 from .certify import Certificate, certify
+from .chart import ChartRule, uv_on_mesh
 from .clock import StageClock
 from .errors import SolveError, points_called
 from .links import link_stars
-from .mesh import one_rings
 from .neighbors import Neighborhoods, delaunay_star, nearest
 from .neighbors import spacing as local_spacing
 from .orient import anticlockwise
-from .parameterize import Parameterization, parameterize, solve_map
+from .parameterize import Parameterization, parameterize
 from .prepare import Cloud, prepare
 from .refine import Meshed, SwapRule, mesh_once, mesh_repeatedly
 from .solve import Direct, Solver
@@ -38,7 +38,6 @@ SECOND_BOUNDARY = 0.25  # a gap with this share of the boundary's length and poi
 
 Connect = Callable[[Points], Neighborhoods]
 LayoutRule = Callable[[Points, Loop], UV]
-ChartRule = Callable[[Points, UV, Loop, Meshed, Solver], Parameterization]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -114,17 +113,6 @@ class Survey:
     spacing: Floats
     loop: Loop
     candidates: list[Candidate]
-
-
-def uv_on_mesh(points: Points, boundary_uv: UV, loop: Loop, meshed: Meshed, solver: Solver) -> Parameterization:
-    """Map the mesh by mean value weights: one-to-one, by Tutte's and Floater's theorem."""
-    rings = one_rings(meshed.swapped.triangles, len(points))
-    return solve_map(points, loop, boundary_uv, rings, weights=mean_value, solver=solver)
-
-
-def uv_of_points(points: Points, boundary_uv: UV, loop: Loop, meshed: Meshed, solver: Solver) -> Parameterization:
-    """Map the points by their neighbourhoods, as the paper does; triangles may fold."""
-    return parameterize(points, loop, boundary_uv, meshed.neighborhoods, weights=meshed.weights, solver=solver)
 
 
 def reconstruct(
@@ -336,7 +324,8 @@ def _check_bridges(survey: Survey, bridges: list[Bridge]) -> None:
         if is_boundary[bridge.points].mean() < 0.5:
             raise SolveError(
                 f"the surface is no disc: a patch of {len(bridge.points)} points at point {{there}} is joined by edges "
-                "of over four spacings although the scan has no gap there, as on a handle or a twist; cut it open",
+                "of over four spacings although the scan has no gap there, as on a handle, a twist, or a part so long "
+                "that its map collapses; cut it there",
                 there=bridge.points[0],
             )
         if survey.candidates:

@@ -108,6 +108,32 @@ def stretches(points: Points, triangles: Triangles, uv: UV) -> tuple[Floats, Flo
     return np.sqrt(0.5 * (a + c + root)), np.sqrt(np.maximum(0.5 * (a + c - root), 0.0))
 
 
+def vertex_stretches(points: Points, triangles: Triangles, uv: UV) -> Floats:
+    """Measure the stretch at each point: root of the mean square over its triangles, weighed by area, (n,).
+
+    Triangles that are flat in the plane, of infinite stretch, count as ten times the largest finite one.
+
+    References
+    ----------
+    Yoshizawa, Belyaev and Seidel 2004, section 3.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> flat = np.array([[0.0, 0, 0], [2, 0, 0], [0, 2, 0]])
+    >>> vertex_stretches(flat, np.array([[0, 1, 2]]), flat[:, :2] / 8).round(12)
+    array([1., 1., 1.])
+    """
+    largest, smallest = stretches(points, triangles, uv)
+    square = 0.5 * (largest**2 + smallest**2)
+    is_finite = np.isfinite(square)
+    square[~is_finite] = 100.0 * square[is_finite].max(initial=1.0)
+    area = np.linalg.norm(area_vectors(points, triangles), axis=1)
+    corners = triangles.ravel()
+    total = np.bincount(corners, np.repeat(area * square, 3), len(points))
+    return np.asarray(np.sqrt(total / np.bincount(corners, np.repeat(area, 3), len(points))))
+
+
 def l2_stretch(points: Points, triangles: Triangles, uv: UV) -> float:
     """Return the root of the area-weighted mean square stretch; 1 for an isometry, infinite for a flat triangle.
 

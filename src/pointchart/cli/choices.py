@@ -4,10 +4,11 @@ from collections.abc import Callable
 from enum import StrEnum
 from functools import partial
 
-from .. import boundary, neighbors, pipeline, swaps, weights
+from .. import boundary, chart, neighbors, pipeline, swaps, weights
+from ..chart import ChartRule
 from ..errors import InputError
 from ..neighbors import Neighborhoods
-from ..pipeline import ChartRule, Connect, LayoutRule
+from ..pipeline import Connect, LayoutRule
 from ..refine import SwapRule
 from ..typing import UV, Floats, Loop, Points
 from ..weights import WeightScheme
@@ -71,7 +72,7 @@ STEPS: dict[Spacing, Callable[[Points, Loop], Floats]] = {
     Spacing.centripetal: boundary.centripetal_steps,
 }
 SWAPS: dict[Swap, SwapRule] = {Swap.delaunay: swaps.swap_to_delaunay, Swap.none: swaps.keep_edges}
-CHARTS: dict[Chart, ChartRule] = {Chart.mesh: pipeline.uv_on_mesh, Chart.paper: pipeline.uv_of_points}
+CHARTS: dict[Chart, ChartRule] = {Chart.mesh: chart.uv_on_mesh, Chart.paper: chart.uv_of_points}
 
 
 def connect_rule(
