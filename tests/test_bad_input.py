@@ -65,6 +65,20 @@ def refused(run, folder):
 
 
 @pytest.fixture
+def misused(run, folder):
+    """Run a command whose options are wrong usage: exit 2, no file written; return what it says on one line."""
+
+    def call(command, *words):
+        before = sorted(folder.rglob("*"))
+        code, err = run(command, *words, "-o", "out.ply")
+        assert code == 2
+        assert sorted(folder.rglob("*")) == before
+        return " ".join(err.replace("\u2502", " ").split())
+
+    return call
+
+
+@pytest.fixture
 def sheet(folder):
     """Write a scan of a grid to sheet.ply."""
     write_mesh(folder / "sheet.ply", SHEET.points, NO_FACES)
@@ -289,10 +303,10 @@ def test_a_radius_that_leaves_points_alone_is_refused_with_one_that_does_not(ref
     assert said.endswith("the loneliest has its nearest at 1: use a larger radius, or the nearest k")
 
 
-@pytest.mark.parametrize("radius", [0, -1, "nan"])
-def test_a_radius_that_is_not_positive_is_refused(refused, sheet, radius):
-    said = refused("mesh", sheet, "--neighbors", "ball", "--radius", radius, "--weights", "uniform")
-    assert "it has to be positive" in said
+@pytest.mark.parametrize("radius", [0, -1, "nan", "inf"])
+def test_a_radius_that_is_not_positive_is_wrong_usage(misused, sheet, radius):
+    said = misused("mesh", sheet, "--neighbors", "ball", "--radius", radius, "--weights", "uniform")
+    assert "it has to be positive and finite" in said
 
 
 def test_too_few_neighbours_leave_points_without_a_path(refused, folder):
@@ -321,11 +335,31 @@ def test_points_that_hang_on_one_point_are_named(refused, folder):
         (["--corners", "0,1,2,3"], "--corners needs --domain square"),
         (["--domain", "square", "--corners", "0,1,2"], "--corners is '0,1,2'; four boundary points are needed"),
         (["--domain", "square", "--corners", "a,b,c,d"], "--corners is 'a,b,c,d'; four boundary points are needed"),
-        (["--domain", "square", "--corners", "0,11,107,40"], "corners 40 are not on the boundary"),
     ],
 )
-def test_options_that_do_not_fit_are_refused(refused, sheet, words, said):
-    assert said in refused("mesh", sheet, *words)
+def test_options_that_do_not_fit_are_wrong_usage(misused, sheet, words, said):
+    assert said in misused("mesh", sheet, *words)
+
+
+def test_corners_off_the_boundary_are_refused(refused, sheet):
+    said = refused("mesh", sheet, "--domain", "square", "--corners", "0,11,107,40")
+    assert "corners 40 are not on the boundary" in said
+
+
+def test_a_report_never_replaces_what_is_checked(run, folder, sheet):
+    run("mesh", sheet, "-o", "mesh.ply", "--quiet")
+    for report in ("mesh.ply", sheet):
+        before = (folder / report).read_bytes()
+        code, err = run("check", "mesh.ply", "--points", sheet, "--report", report)
+        assert code == 1
+        assert "the suffix '.ply' cannot be written here; choose one of .json" in err
+        assert (folder / report).read_bytes() == before
+
+
+def test_a_demo_in_an_impossible_folder_is_refused(run, sheet):
+    code, err = run("demo", "-o", f"{sheet}/inside")
+    assert code == 1
+    assert "the folder cannot be made" in err
 
 
 # Outputs
@@ -354,8 +388,8 @@ def test_the_output_must_not_be_the_boundary_nor_the_report_an_input(run, folder
     [
         ("none/out.ply", "the folder .*none does not exist; create it first"),
         ("sheet.ply/out.ply", "is a file and not a folder"),
-        ("out.docx", "the suffix '.docx' is none of the 6 possible here: .ply, .obj, .off, .stl, .glb, .npz"),
-        ("out", "the suffix '' is none of the 6 possible here"),
+        ("out.docx", "the suffix '.docx' cannot be written here; choose one of .ply, .obj, .off, .stl, .glb, .npz"),
+        ("out", "the suffix '' cannot be written here; choose one of"),
         ("folder.ply", "this is a folder; name a file in it"),
     ],
 )
@@ -374,7 +408,7 @@ def test_a_report_that_cannot_be_written_is_refused_before_the_run(run, folder, 
     assert "does not exist; create it first" in err
     code, err = run("mesh", sheet, "-o", "out.ply", "--report", "run.txt")
     assert code == 1
-    assert "the suffix '.txt' is none of the 1 possible here: .json" in err
+    assert "the suffix '.txt' cannot be written here; choose one of .json" in err
     assert sorted(path.name for path in folder.iterdir()) == [sheet]
 
 

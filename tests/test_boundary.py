@@ -20,10 +20,9 @@ from pointchart import (
     spacing,
     survey_scan,
 )
-from pointchart.boundary import agreed_triangles, rims
+from pointchart.boundary import agreed_triangles, anticlockwise, rims
 from pointchart.mesh import half_edges
 from pointchart.neighbors import break_ties
-from pointchart.orient import anticlockwise
 
 SMOOTH = {
     "disc": lambda: shapes.disc(800, seed=1),

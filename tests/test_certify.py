@@ -248,7 +248,7 @@ def has_chord_on_a_side(shape, rim):
         ([[0, 1, 4]], "triangles 0 name points that are not there; indices run from 0 to 3"),
         ([[0, 1, 2], [0, -1, 2]], "triangles 1 name points that are not there"),
         ([[0, 1, 1]], "triangles 0 name a point twice; remove them"),
-        ([[0, 1, 2, 3]], r"triangles have shape \(1, 4\); \(m, 3\) is needed"),
+        ([[0, 1, 2, 3]], r"triangles have shape \(1, 4\) and type int64; \(m, 3\) whole numbers are needed"),
         ([0, 1, 2], r"triangles have shape \(3,\)"),
     ],
 )
@@ -260,3 +260,25 @@ def test_wrong_triangles_are_refused(triangles, message):
 def test_parameters_of_another_length_are_refused():
     with pytest.raises(InputError, match=r"uv has shape \(3, 2\); 4 points need \(4, 2\)"):
         certify(SQUARE, TWO, uv=np.ones((3, 2)))
+
+
+def winding_fan(turns, n):
+    """Return a fan around the origin that winds several times, as points, triangles and uv."""
+    angle = np.linspace(0.0, 2.0 * np.pi * turns, n)
+    rim = np.column_stack([np.cos(angle), np.sin(angle)]) * (1.0 + 0.01 * np.arange(n))[:, None]
+    uv = np.vstack([[0.0, 0.0], rim])
+    triangles = np.column_stack([np.zeros(n - 1, int), np.arange(1, n), np.arange(2, n + 1)])
+    return np.column_stack([uv, np.arange(n + 1.0)]), triangles, uv
+
+
+def test_positive_triangles_that_overlap_are_not_one_to_one():
+    proof = certify(*winding_fan(1.7, 40)[:2], uv=winding_fan(1.7, 40)[2])
+    assert proof.is_disc
+    assert proof.flat_or_folded_uv == 0
+    assert proof.simple_uv_boundary is False
+    assert not proof.is_one_to_one
+
+
+def test_a_simple_boundary_that_is_not_convex_is_one_to_one():
+    points, triangles, uv = winding_fan(0.7, 20)
+    assert certify(points, triangles, uv=uv).is_one_to_one

@@ -178,7 +178,7 @@ def test_mesh_prints_the_certificate_on_stderr_and_nothing_on_stdout(run, cap):
 
 
 def test_mesh_says_what_a_format_cannot_hold(run, cap):
-    assert "OFF cannot hold u, v, red, intensity" in run("mesh", "cap.ply", "-o", "m.off")[2]
+    assert "pointchart writes no u, v, red, intensity to OFF" in run("mesh", "cap.ply", "-o", "m.off")[2]
 
 
 def test_quiet_commands_print_nothing(run, cap):

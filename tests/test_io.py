@@ -114,17 +114,18 @@ def test_single_precision_formats_say_so_when_survey_coordinates_lose_digits(tmp
     assert "write .ply to keep every digit" in note
 
 
-def test_vertices_that_single_precision_makes_coincide_are_counted(tmp_path):
+def test_vertices_that_single_precision_makes_coincide_are_refused(tmp_path):
     points = np.array([[0, 0, 0], [1, 0, 0], [np.nextafter(1, 2), 0, 0], [0, 1, 0.0]])
-    (note,) = write_mesh(tmp_path / "mesh.stl", points, TRIANGLES)
-    assert "makes 1 of them coincide" in note
+    with pytest.raises(FormatError, match="makes 1 of these points coincide with others"):
+        write_mesh(tmp_path / "mesh.stl", points, TRIANGLES)
+    assert list(tmp_path.iterdir()) == []
 
 
 @pytest.mark.parametrize(("suffix", "left_out"), [(".off", "u, v, red"), (".stl", "u, v, red"), (".obj", "red")])
 def test_what_a_format_cannot_hold_is_named(tmp_path, suffix, left_out):
     points = np.eye(4, 3)
     notes = write_mesh(tmp_path / f"mesh{suffix}", points, TRIANGLES, uv=UV, attributes={"red": np.arange(4)})
-    assert notes == [f"{suffix[1:].upper()} cannot hold {left_out}, which are left out; write .ply to keep them."]
+    assert notes == [f"pointchart writes no {left_out} to {suffix[1:].upper()}; write .ply to keep them."]
 
 
 @pytest.mark.parametrize("suffix", UV_SUFFIXES)
@@ -217,10 +218,10 @@ def test_arrays_of_the_wrong_length_are_refused(tmp_path, uv, attributes, messag
 
 def test_a_suffix_that_cannot_be_written_is_refused_with_those_that_can(tmp_path):
     with pytest.raises(
-        FormatError, match=r"'.step' is none of the 6 possible here: .ply, .obj, .off, .stl, .glb, .npz"
+        FormatError, match=r"'.step' cannot be written here; choose one of .ply, .obj, .off, .stl, .glb, .npz"
     ):
         write_mesh(tmp_path / "mesh.step", POINTS, TRIANGLES)
-    with pytest.raises(FormatError, match=r"'.obj' is none of the 6 possible here: .csv"):
+    with pytest.raises(FormatError, match=r"'.obj' cannot be written here; choose one of .csv"):
         write_uv(tmp_path / "uv.obj", UV)
 
 
@@ -234,8 +235,8 @@ def test_outputs_that_cannot_be_written_are_refused_before_a_run(tmp_path):
     (tmp_path / "file").write_text("")
     (tmp_path / "folder.ply").mkdir()
     for name, message in (
-        ("mesh.abc", "'.abc' is none of the 6 possible here"),
-        ("mesh", "'' is none of the 6 possible here"),
+        ("mesh.abc", "'.abc' cannot be written here; choose one of"),
+        ("mesh", "'' cannot be written here; choose one of"),
         ("none/mesh.ply", "the folder .*none does not exist; create it first"),
         ("file/mesh.ply", "file is a file and not a folder"),
         ("folder.ply", "this is a folder; name a file in it"),

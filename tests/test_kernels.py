@@ -46,7 +46,13 @@ ENDS = ENDS[: rims.name_edges(SHAPE.triangles, ints(N + 1), ENDS, EDGE_OF)].copy
 SIDES = ints((len(ENDS), 2)) - 1
 rims.keep_manifold(np.arange(M - 5), EDGE_OF, SIDES)
 
+PENTAGRAM = np.array([[np.cos(t), np.sin(t)] for t in np.arange(5) * 0.8 * np.pi])
+X_ENDS = np.column_stack([PENTAGRAM[:, 0], np.roll(PENTAGRAM[:, 0], -1)])
+SWEEP = (np.argsort(X_ENDS.min(axis=1)), X_ENDS.min(axis=1), X_ENDS.max(axis=1))
+
 CASES = {
+    "crossings.find_crossing": lambda: (PENTAGRAM, *SWEEP, ints((320, 2))),
+    "crossings.turn": lambda: (0.0, 0.0, 1.0, 0.0, 0.5, 1e-300),
     "graphs.dominators": lambda: (TREE[0], *GRAPH, 0, np.arange(5), np.array([0, -1, -1, -1, -1])),
     "graphs.symmetrizer": lambda: (
         *TREE,

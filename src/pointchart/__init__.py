@@ -7,6 +7,7 @@ from .boundary import (
     Candidate,
     FoundBoundary,
     angular_gaps,
+    anticlockwise,
     centripetal_steps,
     chord_length_on_circle,
     chord_length_steps,
@@ -26,7 +27,7 @@ from .clock import StageClock
 from .errors import FormatError, InputError, PointchartError, SolveError
 from .io import Scan, read_loop, read_scan, write_loop, write_mesh, write_uv
 from .links import Links, distrust_far, link_stars, trusted
-from .mesh import boundary_loops, one_rings
+from .mesh import one_rings
 from .neighbors import Neighborhoods, ball, delaunay_star, nearest, normals, spacing
 from .parameterize import Parameterization, parameterize
 from .pipeline import Reconstruction, parameterize_scan, reconstruct, survey_scan
@@ -55,9 +56,9 @@ __all__ = [
     "StageClock",
     "Swapped",
     "angular_gaps",
+    "anticlockwise",
     "ball",
     "bicgstab",
-    "boundary_loops",
     "centripetal_steps",
     "certify",
     "cholesky",

@@ -3,8 +3,8 @@
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .errors import InputError
-from .typing import Loop, Points
+from .errors import InputError, name_some
+from .typing import UV, Indices, Loop, Points, Triangles
 
 SAMPLE = 64  # points looked at first: if they span a plane, so do all
 
@@ -83,3 +83,74 @@ def check_loop(loop: ArrayLike, n_points: int) -> Loop:
             repeated=repeated,
         )
     return array
+
+
+def check_triangles(triangles: ArrayLike, n_points: int) -> Triangles:
+    """Return triangles as (m, 3) int64, or say what is wrong with them.
+
+    Raises
+    ------
+    InputError
+        On a wrong shape or type, indices out of range, or a point named twice in one triangle.
+    """
+    given = np.asarray(triangles)
+    if given.size == 0:
+        return np.empty((0, 3), np.int64)
+    if given.ndim != 2 or given.shape[1] != 3 or not np.issubdtype(given.dtype, np.integer):
+        raise InputError(f"triangles have shape {given.shape} and type {given.dtype}; (m, 3) whole numbers are needed")
+    faces = np.ascontiguousarray(given, dtype=np.int64)
+    wrong = np.flatnonzero(((faces < 0) | (faces >= n_points)).any(axis=1))
+    if len(wrong):
+        raise InputError(
+            f"triangles {name_some(wrong)} name points that are not there; indices run from 0 to {n_points - 1}"
+        )
+    doubled = np.flatnonzero((faces == np.roll(faces, 1, axis=1)).any(axis=1))
+    if len(doubled):
+        raise InputError(f"triangles {name_some(doubled)} name a point twice; remove them")
+    return faces
+
+
+def check_neighbors(indices: Indices, n_rows: int, n_points: int) -> None:
+    """Check that neighbourhoods belong to the points.
+
+    Raises
+    ------
+    InputError
+        If there are more or fewer of them than points, or they name points that are not there.
+    """
+    if n_rows != n_points:
+        raise InputError(f"the neighbourhoods are those of {n_rows} points, not of {n_points}")
+    if len(indices) and (indices.min() < 0 or indices.max() >= n_points):
+        raise InputError(
+            f"the neighbourhoods name points from {indices.min()} to {indices.max()}; they run from 0 to {n_points - 1}"
+        )
+
+
+def check_convex(polygon: ArrayLike, *, is_strict: bool = False) -> UV:
+    """Return the corners of a convex polygon as (b, 2) float64, or say why they are none.
+
+    A strict one is anticlockwise and has no straight angles; any other may run either way.
+
+    Raises
+    ------
+    InputError
+        If corners repeat, the polygon turns right by more than rounding, or not once around in all.
+    """
+    corners = np.asarray(polygon, dtype=np.float64)
+    if corners.ndim != 2 or corners.shape[1] != 2 or len(corners) < 3 or not np.isfinite(corners).all():
+        raise InputError(f"the domain has shape {corners.shape}; at least 3 finite corners, (b, 2), are needed")
+    steps = np.roll(corners, -1, axis=0) - corners
+    before = np.roll(steps, 1, axis=0)
+    cross = before[:, 0] * steps[:, 1] - before[:, 1] * steps[:, 0]
+    dot = np.einsum("ij,ij->i", before, steps)
+    cross = cross if is_strict or cross.sum() > 0.0 else -cross
+    lengths = np.linalg.norm(steps, axis=1)
+    # A difference of coordinates is wrong by an ulp of their size, which turns short steps.
+    slack = 0.0 if is_strict else 1e-15 * np.abs(corners).max() * (lengths + np.roll(lengths, 1))
+    turns_once = abs(np.arctan2(cross, dot).sum() - 2.0 * np.pi) < 0.1
+    if (lengths == 0.0).any() or (cross < -slack).any() or (is_strict and (cross <= 0.0).any()) or not turns_once:
+        raise InputError(
+            "the domain is no convex polygon: give its corners in order, once around, without repetitions"
+            + (", anticlockwise, without straight angles" if is_strict else "")
+        )
+    return corners

@@ -6,14 +6,14 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import ArrayLike
 
-from ._check import check_loop, check_points
-from ._exact import orientation_signs
-from .errors import InputError, name_some
+from ._check import check_loop, check_points, check_triangles
+from ._exact import is_simple, orientation_signs
+from .errors import InputError
 from .mesh import HalfEdges, boundary_loops, fans, half_edges
 from .neighbors import spacing as local_spacing
 from .quality import dihedral_angles, edge_lengths
 from .triangulate import coinciding
-from .typing import Floats, Loop, Triangles
+from .typing import UV, Floats, Loop
 
 FOLD_ANGLE = np.deg2rad(150.0)
 
@@ -42,6 +42,9 @@ class Certificate:
         Points that share their parameters with others, None without uv.
     flat_or_folded_uv : int or None
         Triangles whose area in the plane is not positive, by exact arithmetic.
+    simple_uv_boundary : bool or None
+        Whether the boundary is a simple polygon in the plane, by exact arithmetic: without it, positive triangles might
+        overlap. None without uv or a single boundary.
     longest_edge_over_spacing : float
         Largest ratio of an edge's length to the spacing of the points at its ends: a bridge over a gap shows here.
     folds : int
@@ -59,6 +62,7 @@ class Certificate:
     boundary_as_given: bool | None
     coinciding_uv: int | None
     flat_or_folded_uv: int | None
+    simple_uv_boundary: bool | None
     longest_edge_over_spacing: float
     folds: int
 
@@ -69,8 +73,12 @@ class Certificate:
 
     @property
     def is_one_to_one(self) -> bool:
-        """Whether the parameters are distinct and every triangle's area in the plane is positive."""
-        return self.coinciding_uv == 0 and self.flat_or_folded_uv == 0
+        """Whether the parameters map a disc to the plane one-to-one; False without uv.
+
+        All triangles are positive and their common boundary is a simple polygon, so that no two of them overlap.
+        """
+        is_positive = self.coinciding_uv == 0 and self.flat_or_folded_uv == 0
+        return self.is_disc and is_positive and self.simple_uv_boundary is True
 
     @property
     def faults(self) -> tuple[str, ...]:
@@ -127,15 +135,13 @@ def certify(
     ('1 points are in no triangle',)
     """
     cloud = check_points(points)
-    faces = _checked_triangles(triangles, len(cloud))
+    faces = check_triangles(triangles, len(cloud))
     edges = half_edges(faces, len(cloud))
     fan_counts = fans(edges, len(cloud))
     n_edges, n_overfull = _count_edges(edges)
     is_manifold = edges.n_overfull == 0 and not (fan_counts > 1).any()
     loops = boundary_loops(edges) if is_manifold else []
-    plane = None if uv is None else np.asarray(uv, dtype=np.float64)
-    if plane is not None and plane.shape != (len(cloud), 2):
-        raise InputError(f"uv has shape {plane.shape}; {len(cloud)} points need ({len(cloud)}, 2)")
+    plane = None if uv is None else _checked_uv(uv, len(cloud))
     ends, lengths = edge_lengths(cloud, edges)
     local = (local_spacing(cloud) if spacing is None else spacing)[ends].max(axis=1)
     return Certificate(
@@ -150,26 +156,20 @@ def certify(
         boundary_as_given=None if loop is None else _is_same_cycle(loops, check_loop(loop, len(cloud))),
         coinciding_uv=None if plane is None else len(coinciding(plane)),
         flat_or_folded_uv=None if plane is None else int((orientation_signs(plane, faces) <= 0).sum()),
+        simple_uv_boundary=is_simple(plane[loops[0]]) if plane is not None and len(loops) == 1 else None,
         longest_edge_over_spacing=float((lengths / local).max()) if len(faces) else 0.0,
         folds=int((dihedral_angles(cloud, faces, edges) > FOLD_ANGLE).sum()),
     )
 
 
-def _checked_triangles(triangles: ArrayLike, n_points: int) -> Triangles:
-    faces = np.asarray(triangles)
-    if faces.size == 0:
-        return np.empty((0, 3), np.int64)
-    if faces.ndim != 2 or faces.shape[1] != 3:
-        raise InputError(f"triangles have shape {faces.shape}; (m, 3) is needed")
-    wrong = np.flatnonzero(((faces < 0) | (faces >= n_points)).any(axis=1))
-    if len(wrong):
-        raise InputError(
-            f"triangles {name_some(wrong)} name points that are not there; indices run from 0 to {n_points - 1}"
-        )
-    doubled = np.flatnonzero((faces == np.roll(faces, 1, axis=1)).any(axis=1))
-    if len(doubled):
-        raise InputError(f"triangles {name_some(doubled)} name a point twice; remove them")
-    return faces.astype(np.int64)
+def _checked_uv(uv: ArrayLike, n_points: int) -> UV:
+    plane = np.asarray(uv, dtype=np.float64)
+    if plane.shape != (n_points, 2):
+        raise InputError(f"uv has shape {plane.shape}; {n_points} points need ({n_points}, 2)")
+    broken = np.flatnonzero(~np.isfinite(plane).all(axis=1))
+    if len(broken):
+        raise InputError(f"the parameters of {len(broken)} points are NaN or infinite, the first at index {broken[0]}")
+    return plane
 
 
 def _count_edges(edges: HalfEdges) -> tuple[int, int]:

@@ -14,10 +14,10 @@ from .weights import mean_value, normalize
 
 MOST_SOLVES = 6
 
-ChartRule: TypeAlias = Callable[[Points, UV, Loop, Meshed, Solver], Parameterization]
+ChartRule: TypeAlias = Callable[[Points, Loop, UV, Meshed, Solver], Parameterization]
 
 
-def uv_on_mesh(points: Points, boundary_uv: UV, loop: Loop, meshed: Meshed, solver: Solver) -> Parameterization:
+def uv_on_mesh(points: Points, loop: Loop, boundary_uv: UV, meshed: Meshed, solver: Solver) -> Parameterization:
     """Map the mesh by mean value weights: one-to-one, by Tutte's and Floater's theorem.
 
     Where a triangle is flat in double precision all the same, weights are divided by the stretch at the neighbour,
@@ -41,6 +41,6 @@ def uv_on_mesh(points: Points, boundary_uv: UV, loop: Loop, meshed: Meshed, solv
     return mapped
 
 
-def uv_of_points(points: Points, boundary_uv: UV, loop: Loop, meshed: Meshed, solver: Solver) -> Parameterization:
+def uv_of_points(points: Points, loop: Loop, boundary_uv: UV, meshed: Meshed, solver: Solver) -> Parameterization:
     """Map the points by their neighbourhoods, as the paper does; triangles may fold."""
     return parameterize(points, loop, boundary_uv, meshed.neighborhoods, weights=meshed.weights, solver=solver)

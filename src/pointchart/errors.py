@@ -1,5 +1,6 @@
 """Every error that pointchart raises on purpose."""
 
+import re
 from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any, Self
@@ -40,7 +41,8 @@ class PointchartError(Exception):
     def __init__(self, message: str, **points: ArrayLike) -> None:
         self.template, self.points = message, {name: np.atleast_1d(np.asarray(ids)) for name, ids in points.items()}
         names = {name: name_some(ids) for name, ids in self.points.items()}
-        super().__init__(message.format(**names) if names else message)
+        # Only the names given are replaced: a path in the message may hold braces of its own.
+        super().__init__(re.sub(r"\{(\w+)\}", lambda match: names.get(match[1], match[0]), message))
 
     def renumbered(self, rows: NDArray[Any]) -> Self:
         """Return the same error with point i called ``rows[i]``."""

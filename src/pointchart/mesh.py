@@ -4,7 +4,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ._check import check_triangles
 from ._kernels.half_edges import count_fans, order_rings, pair_half_edges
+from .errors import InputError
 from .neighbors import Neighborhoods
 from .typing import Indices, Loop, Triangles
 
@@ -94,7 +96,13 @@ def one_rings(triangles: Triangles, n_points: int) -> Neighborhoods:
     >>> rings.sizes, rings.is_open
     (array([3, 3, 3, 3]), array([False,  True,  True,  True]))
     """
-    edges = half_edges(triangles, n_points)
+    edges = half_edges(check_triangles(triangles, n_points), n_points)
+    pinched = int((fans(edges, n_points) > 1).sum())
+    if edges.n_overfull or pinched:
+        raise InputError(
+            f"the mesh is no manifold: {edges.n_overfull} half-edges meet another of their direction and "
+            f"{pinched} points have several fans of triangles, so there are no rings; repair it first"
+        )
     first = np.full(n_points, -1, np.int64)
     first[edges.origins] = np.arange(len(edges.origins))
     sizes = np.bincount(edges.origins, minlength=n_points) + np.bincount(

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.spatial import cKDTree
 
-from ._check import check_points
+from ._check import check_neighbors, check_points
 from ._kernels.planes import fit_normals
 from ._kernels.stars import delaunay_stars as stars_kernel
 from ._parallel import over_ranges
@@ -197,7 +197,7 @@ def spacing(points: ArrayLike, *, k: int = 6, around: Neighborhoods | None = Non
     points : (n, 3) array
     k : int
     around : Neighborhoods, optional
-        At least `k` nearest points of each, if they have been found already.
+        At least `k` nearest points of each, nearest first, if they have been found already.
 
     Returns
     -------
@@ -210,6 +210,9 @@ def spacing(points: ArrayLike, *, k: int = 6, around: Neighborhoods | None = Non
     """
     cloud = check_points(points)
     found = nearest(cloud, k) if around is None else around
+    check_neighbors(found.indices, found.n_points, len(cloud))
+    if len(np.unique(found.sizes)) > 1:
+        raise InputError("the spacing needs the same number of nearest neighbours for every point; use nearest")
     closest = found.indices.reshape(len(cloud), -1)
     count = min(k, closest.shape[1])
     # Neighbours are sorted by distance: the median is that of the middle one, or the mean of the middle two.
@@ -264,6 +267,7 @@ def normals(points: ArrayLike, around: Neighborhoods) -> Floats:
     array([0., 0., 1.])
     """
     cloud = check_points(points)
+    check_neighbors(around.indices, around.n_points, len(cloud))
     result = np.empty_like(cloud)
     over_ranges(lambda first, last: fit_normals(cloud, around.indptr, around.indices, first, last, result), len(cloud))
     return result
@@ -302,6 +306,7 @@ def delaunay_star(points: ArrayLike, around: Neighborhoods, *, planes: Neighborh
     ([1, 2, 3, 4], [False, False])
     """
     cloud = check_points(points)
+    check_neighbors(around.indices, around.n_points, len(cloud))
     return _compact(around, *_stars(cloud, normals(cloud, planes or around), around)[:4])
 
 

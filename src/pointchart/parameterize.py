@@ -6,7 +6,7 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import ArrayLike
 
-from ._check import check_loop, check_points
+from ._check import check_convex, check_loop, check_neighbors, check_points
 from ._kernels.graphs import dominators
 from .errors import InputError, SolveError
 from .neighbors import Neighborhoods
@@ -92,11 +92,10 @@ def parameterize(
     """
     cloud = check_points(points)
     rim = check_loop(loop, len(cloud))
-    layout = np.asarray(boundary_uv, dtype=np.float64)
+    layout = check_convex(boundary_uv)
     if layout.shape != (len(rim), 2):
         raise InputError(f"boundary_uv has shape {layout.shape}; the loop of {len(rim)} points needs ({len(rim)}, 2)")
-    if neighborhoods.n_points != len(cloud):
-        raise InputError(f"the neighbourhoods are those of {neighborhoods.n_points} points, not of {len(cloud)}")
+    check_neighbors(neighborhoods.indices, neighborhoods.n_points, len(cloud))
     check_connected(neighborhoods, rim)
     return solve_map(cloud, rim, layout, neighborhoods, weights=weights, solver=solver)
 
@@ -192,10 +191,15 @@ def _convex_matrix(weights: ArrayLike, neighborhoods: Neighborhoods, loop: Loop)
 
 
 def _inside(uv: UV, layout: UV) -> UV:
-    """Check Proposition 3.1 in its plainest form: no point lies outside the bounding box of the boundary."""
-    low, high = layout.min(axis=0), layout.max(axis=0)
-    slack = 1e-9 * (high - low)
-    outside = np.flatnonzero(((uv < low - slack) | (uv > high + slack)).any(axis=1))
+    """Check Proposition 3.1: no point lies outside the convex hull of the boundary, but for rounding."""
+    center = layout.mean(axis=0)
+    direction = np.arctan2(*(layout - center).T[::-1])
+    corners = layout[np.argsort(direction, kind="stable")]
+    # Each point lies in the sector of one side, seen from the middle: it has to be on the inner hand of that side.
+    sector = np.searchsorted(np.sort(direction), np.arctan2(*(uv - center).T[::-1]), side="right") - 1
+    start, end = corners[sector], corners[(sector + 1) % len(corners)]
+    cross = (end[:, 0] - start[:, 0]) * (uv[:, 1] - start[:, 1]) - (end[:, 1] - start[:, 1]) * (uv[:, 0] - start[:, 0])
+    outside = np.flatnonzero(cross < -1e-9 * np.ptp(layout, axis=0).max() * np.linalg.norm(end - start, axis=1))
     if len(outside):
         raise SolveError(
             "points {outside} were mapped outside the domain, so the system was not solved well enough; use the direct "

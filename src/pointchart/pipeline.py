@@ -12,6 +12,7 @@ from .boundary import (
     GAP_NEIGHBORS,
     Candidate,
     angular_gaps,
+    anticlockwise,
     check_order,
     chord_length_on_circle,
     find_boundary,
@@ -24,11 +25,10 @@ from .errors import SolveError, points_called
 from .links import link_stars
 from .neighbors import Neighborhoods, delaunay_star, nearest
 from .neighbors import spacing as local_spacing
-from .orient import anticlockwise
 from .parameterize import Parameterization, parameterize
 from .prepare import Cloud, prepare
 from .refine import Meshed, SwapRule, mesh_once, mesh_repeatedly
-from .solve import Direct, Solver
+from .solve import Solver, default_solver
 from .swaps import swap_off_sides, swap_to_delaunay
 from .typing import UV, Floats, Indices, Loop, Points, Triangles
 from .weights import WeightScheme, mean_value
@@ -120,7 +120,7 @@ def reconstruct(
     loop: ArrayLike | None = None,
     *,
     connect: Connect | None = None,
-    weights: WeightScheme = mean_value,
+    weights: WeightScheme | None = None,
     swap: SwapRule = swap_to_delaunay,
     layout: LayoutRule = chord_length_on_circle,
     chart: ChartRule = uv_on_mesh,
@@ -140,7 +140,8 @@ def reconstruct(
         the distinct points in spatial order, in the unit of the scan. If not given, Delaunay stars are linked by
         their agreement, and links that the mesh contradicts lose their trust.
     weights : callable
-        ``weights(points, neighborhoods) -> (nnz,)``; used with `connect` only.
+        ``weights(points, neighborhoods) -> (nnz,)`` for the neighbourhoods of `connect`, or of the Delaunay stars; mean
+        value weights, if only `connect` is given.
     swap : callable
         ``swap(points, triangles) -> Swapped``: `swap_to_delaunay` or `keep_edges`.
     layout : callable
@@ -175,8 +176,9 @@ def reconstruct(
     >>> cap.certificate.is_disc, cap.certificate.is_one_to_one
     (True, True)
     """
-    clock, solver = clock or StageClock(), solver or Direct()
+    clock = clock or StageClock()
     survey = survey_scan(points, loop, clock=clock)
+    solver = solver or default_solver(len(survey.cloud.points))
     cloud, rim = survey.cloud, survey.loop
     boundary_uv = layout(survey.scan, cloud.rows[rim])
     with points_called(cloud.rows):
@@ -185,7 +187,7 @@ def reconstruct(
         _check_bridges(survey, bridges)
         with clock("parameters"):
             meshed = replace(meshed, swapped=swap_off_sides(meshed.swapped, rim, boundary_uv))
-            mapped = chart(cloud.points, boundary_uv, rim, meshed, solver)
+            mapped = chart(cloud.points, rim, boundary_uv, meshed, solver)
         with clock("certify"):
             proof = certify(cloud.points, meshed.swapped.triangles, uv=mapped.uv, loop=rim, spacing=survey.spacing)
             _check_proof(proof, chart)
@@ -237,7 +239,7 @@ def survey_scan(points: ArrayLike, loop: ArrayLike | None = None, *, clock: Stag
             else:
                 rim, candidates = check_loop(cloud.places[given], len(cloud.points)), []
                 check_order(cloud.points, rim)
-            rim = anticlockwise(cloud.points, rim)
+                rim = anticlockwise(cloud.points, rim)
     return Survey(scan, cloud, star, spacing, rim, candidates)
 
 
@@ -246,7 +248,7 @@ def parameterize_scan(
     loop: ArrayLike | None = None,
     *,
     connect: Connect | None = None,
-    weights: WeightScheme = mean_value,
+    weights: WeightScheme | None = None,
     layout: LayoutRule = chord_length_on_circle,
     solver: Solver | None = None,
     clock: StageClock | None = None,
@@ -276,6 +278,7 @@ def parameterize_scan(
         with clock("neighbours"):
             neighborhoods = (connect or _default_stars)(cloud * survey.cloud.scale)
         with clock("map"):
+            weights = weights or mean_value
             mapped = parameterize(cloud, rim, boundary_uv, neighborhoods, weights=weights, solver=solver)
     return survey, mapped
 
@@ -287,19 +290,20 @@ def _default_stars(points: Points) -> Neighborhoods:
 def _mesh(
     survey: Survey,
     connect: Connect | None,
-    weights: WeightScheme,
+    weights: WeightScheme | None,
     swap: SwapRule,
     solver: Solver,
     clock: StageClock,
 ) -> Meshed:
     points, rim = survey.cloud.points, survey.loop
     circle = chord_length_on_circle(points, rim)
-    if connect is None:
+    if connect is None and weights is None:
         with clock("neighbours"):
             links = link_stars(survey.star)
         return mesh_repeatedly(points, rim, circle, links, swap=swap, solver=solver, clock=clock)
     with clock("neighbours"):
-        neighborhoods = connect(points * survey.cloud.scale)
+        neighborhoods = (connect or _default_stars)(points * survey.cloud.scale)
+    weights = weights or mean_value
     return mesh_once(points, rim, circle, neighborhoods, weights=weights, swap=swap, solver=solver, clock=clock)
 
 
@@ -332,8 +336,8 @@ def _check_bridges(survey: Survey, bridges: list[Bridge]) -> None:
             raise SolveError(
                 f"the surface has a second boundary, so it is no disc: besides the loop of {len(loop)} points that "
                 f"passes point {{here}} there is a gap of {len(bridge.points)} points, "
-                f"{bridge.rim_length / length:.2f} times as long, at point {{there}}; give the boundary "
-                "with --boundary, or close the gap",
+                f"{bridge.rim_length / length:.2f} times as long, at point {{there}}; give the boundary, "
+                "or close the gap",
                 here=loop[0],
                 there=bridge.points[0],
             )

@@ -12,7 +12,7 @@ from .typing import Indices, Points
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Cloud:
-    """A scan made ready: distinct points in spatial order, in a box of size 1 about the origin.
+    """A scan made ready: distinct points in spatial order, coordinates within -1 and 1.
 
     Attributes
     ----------

@@ -1,7 +1,6 @@
 """Results as text and as the JSON of a run; computes nothing but counts and percentiles."""
 
 import json
-import resource
 import sys
 from pathlib import Path
 from typing import Any
@@ -42,6 +41,8 @@ def certificate_lines(proof: Certificate) -> list[str]:
                 proof.flat_or_folded_uv,
             )
         )
+        simple = proof.simple_uv_boundary is True
+        lines.append(_line(simple, "boundary simple in the plane", "it crosses itself", None))
     lines.append(f"[--] longest edge {proof.longest_edge_over_spacing:.1f} local spacings, {proof.folds} folds")
     return lines
 
@@ -53,7 +54,11 @@ def summary(proof: Certificate) -> str:
     text = f"a certified disc: {proof.n_points} points, {proof.n_triangles} triangles"
     if proof.coinciding_uv is None:
         return text
-    return text + (", uv one-to-one" if proof.is_one_to_one else f", uv folded at {proof.flat_or_folded_uv} triangles")
+    if proof.is_one_to_one:
+        return text + ", uv one-to-one"
+    return text + (
+        f", uv folded at {proof.flat_or_folded_uv} triangles" if proof.flat_or_folded_uv else ", uv overlaps"
+    )
 
 
 def run_report(
@@ -92,6 +97,7 @@ def run_report(
             "gaps": [_gap(bridge) for bridge in result.evidence.bridges],
         },
         "solve": solve_report(solution),
+        "solve_uv": solve_report(result.evidence.chart.solution),
         "swaps": {
             "count": result.evidence.meshed.swapped.n_swaps,
             "settled": result.evidence.meshed.swapped.is_settled,
@@ -116,6 +122,7 @@ def certificate_report(proof: Certificate) -> dict[str, Any]:
         "boundary_loops": proof.boundary_loops,
         "boundary_as_given": proof.boundary_as_given,
         "uv_distinct": None if proof.coinciding_uv is None else proof.coinciding_uv == 0,
+        "uv_boundary_simple": proof.simple_uv_boundary,
         "uv_positive": None if proof.flat_or_folded_uv is None else proof.flat_or_folded_uv == 0,
         "coinciding_uv": proof.coinciding_uv,
         "flat_or_folded_uv": proof.flat_or_folded_uv,
@@ -139,12 +146,17 @@ def solve_report(solution: Solution) -> dict[str, Any]:
 
 def write_json(path: Path, report: dict[str, Any]) -> None:
     """Write a report as JSON."""
+    text = json.dumps(report, indent=1, allow_nan=False) + "\n"
     with replacing(path) as temporary:
-        temporary.write_text(json.dumps(report, indent=1, allow_nan=False) + "\n", encoding="utf-8")
+        temporary.write_text(text, encoding="utf-8")
 
 
-def peak_memory_mb() -> int:
-    """Return the largest resident memory of this process so far, in MiB."""
+def peak_memory_mb() -> int | None:
+    """Return the largest resident memory of this process so far, in MiB; None where the system does not tell."""
+    try:
+        import resource
+    except ImportError:
+        return None
     peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     return int(peak // (1024 * 1024 if sys.platform == "darwin" else 1024))
 

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from threading import Lock
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -16,6 +17,9 @@ from .typing import Floats, Indices
 TOLERANCE = 1e-12
 MOST_ITERATIONS = 20_000
 DIRECT_LIMIT = 1_000_000
+# Relative: more than any tolerance that is asked for, less than that of no solution at all.
+WORST_RESIDUAL = 0.1
+_ONE_THREAD = Lock()  # the limit on threads holds for the whole process, so solves take turns
 SMALL = 100
 ROUNDING = 1e-14  # relative residual over which a direct solution is refined
 
@@ -95,13 +99,18 @@ def solve_fixed(matrix: sp.csr_array, fixed: Indices, values: Floats, *, solver:
     rows = matrix[free]
     right = rows @ full
     left = sp.csr_array(sp.eye_array(len(free), format="csr") - rows[:, free])
-    chosen = solver or (direct if len(free) <= DIRECT_LIMIT else multigrid)
+    chosen = solver or default_solver(len(free))
     with points_called(free):
         solution, iterations = chosen(left, right)
     size = np.linalg.norm(right, axis=0)
     residual = float(np.max(np.linalg.norm(right - left @ solution, axis=0) / np.where(size > 0.0, size, 1.0)))
     if not np.isfinite(residual):
         raise SolveError(f"{_name(chosen)} gave no finite solution of {len(free)} unknowns; try another solver")
+    if residual > WORST_RESIDUAL:
+        raise SolveError(
+            f"{_name(chosen)} left a relative residual of {residual:.2g} in {len(free)} unknowns, so it did not "
+            "solve the system; use the direct solver"
+        )
     full[free] = solution
     return Solution(full, residual, iterations, _name(chosen), len(free), left.nnz)
 
@@ -137,13 +146,25 @@ class Direct:
         return solution, ()
 
 
+def default_solver(n_unknowns: int) -> Solver:
+    """Choose by size: direct up to a million unknowns, multigrid above.
+
+    >>> default_solver(10).__name__, default_solver(10**7).__name__
+    ('direct', 'multigrid')
+    """
+    return Direct() if n_unknowns <= DIRECT_LIMIT else multigrid
+
+
 def direct(left: sp.csr_array, right: Floats) -> Solved:
     """Solve one system by LU without pivoting; see `Direct`."""
     return Direct()(left, right)
 
 
 def cholesky(left: sp.csr_array, right: Floats) -> Solved:
-    """Solve the symmetric case (4.5) by factors L D L^T of the row-scaled matrix; positive pivots prove it definite."""
+    """Solve the symmetric case (4.5) by factors of the row-scaled matrix, all pivots positive.
+
+    SuperLU in symmetric mode without pivoting: U is D L^T, so the factors are Cholesky's but for the scaling.
+    """
     symmetric, scale = symmetrize(left)
     order = nested_dissection(symmetric)
     factors = _factorize(symmetric, order)
@@ -205,9 +226,9 @@ def symmetrize(left: sp.csr_array) -> tuple[sp.csr_array, Floats]:
                 other=parent[odd],
             )
     symmetric = sp.csr_array(sp.diags_array(scale) @ left)
-    skew = abs(symmetric - symmetric.T).tocoo()
+    skew = (abs(symmetric - symmetric.T) - 1e-9 * (abs(symmetric) + abs(symmetric.T))).tocoo()
     worst = int(np.argmax(skew.data)) if skew.nnz else -1
-    if worst >= 0 and not skew.data[worst] <= 1e-9 * abs(symmetric).max():
+    if worst >= 0 and skew.data[worst] > 0.0:
         raise SolveError(
             "the weights have no symmetric form (4.5): those of points {pair} for each other "
             f"differ by {skew.data[worst]:.2g} after scaling; use another solver",
@@ -265,7 +286,7 @@ def _krylov(
     for k in range(right.shape[1]):
         steps: list[None] = []
         # Vectors are too short for threads to pay, and waiting for a busy core costs twenty times the work.
-        with threadpool_limits(1):
+        with _ONE_THREAD, threadpool_limits(1):
             column, flag = method(
                 left,
                 right[:, k],

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ._check import check_points
+from ._check import check_points, check_triangles
 from ._kernels.swaps import MOST_SWAPS_OF_A_TRIANGLE, are_joined, delaunay_swaps, swap
 from .mesh import HalfEdges, half_edges
 from .typing import UV, Indices, Loop, Mask, Points, Triangles
@@ -68,7 +68,7 @@ def swap_to_delaunay(points: ArrayLike, triangles: Triangles) -> Swapped:
            [2, 0, 3]])
     """
     cloud = check_points(points)
-    edges = half_edges(np.asarray(triangles), len(cloud))
+    edges = half_edges(check_triangles(triangles, len(cloud)), len(cloud))
     n = len(edges.origins)
     turns = np.zeros(n // 3, np.int64)
     n_swaps, is_done = 0, False

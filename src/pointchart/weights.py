@@ -124,16 +124,16 @@ def mean_value(points: Points, neighborhoods: Neighborhoods) -> Weights:
     tangent[is_last] = 0.0
     both = tangent.copy()
     both[following] += tangent
-    both[both == 0.0] = 1.0  # a lone neighbour, or a fan without any angle
+    # A lone neighbour, or a fan without any angle, has no weights of its own.
+    has_none = np.bincount(neighborhoods.rows, both, neighborhoods.n_points) == 0.0
+    both[has_none[neighborhoods.rows]] = 1.0
     return normalize(both / length, neighborhoods)
 
 
 def half_angle_tangent(a: Floats, b: Floats, length_a: Floats, length_b: Floats) -> Floats:
-    """Return tan(angle / 2) between vectors a and b, (n, d), without cancellation for small angles."""
-    along = np.einsum("ij,ij->i", a, b)
-    product = length_a * length_b
-    sine = np.sqrt(np.maximum(product - along, 0.0) * (product + along).clip(0.0))
-    return np.asarray(sine / np.maximum(product + along, 1e-15 * product))
+    """Return tan(angle / 2) between vectors a and b, (n, d), without cancellation for small angles (Kahan 2006)."""
+    p, q = a * length_b[:, None], b * length_a[:, None]
+    return np.asarray(_lengths(p - q) / np.maximum(_lengths(p + q), 1e-15 * length_a * length_b))
 
 
 def shape_preserving(points: Points, neighborhoods: Neighborhoods) -> Weights:

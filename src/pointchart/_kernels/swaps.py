@@ -6,7 +6,7 @@ from numba import njit
 
 from .half_edges import following, preceding
 
-ROUNDING = 1e-12
+LEAST_GAIN = 1e-12  # in the measure of the angles: smaller differences are rounding, and might swap for ever
 MOST_SWAPS_OF_A_TRIANGLE = 100
 
 
@@ -99,7 +99,7 @@ def delaunay_swaps(points, corners, twin, stack, queued, swapped):
         if t < 0 or swapped[h // 3] >= MOST_SWAPS_OF_A_TRIANGLE:
             continue
         a, b, c, d = corners[h], corners[t], corners[preceding(h)], corners[preceding(t)]
-        if angle_sum_measure(points, c, d, a, b) <= angle_sum_measure(points, a, b, c, d) + ROUNDING:
+        if angle_sum_measure(points, c, d, a, b) <= angle_sum_measure(points, a, b, c, d) + LEAST_GAIN:
             continue
         if are_joined(corners, twin, preceding(h), d):
             barred += 1

@@ -16,6 +16,7 @@ from .layout import (
     uniform_steps,
 )
 from .order import check_order
+from .orient import anticlockwise
 from .rims import agreed_triangles, rims
 from .univariate import order_by_halves
 
@@ -26,6 +27,7 @@ __all__ = [
     "FoundBoundary",
     "agreed_triangles",
     "angular_gaps",
+    "anticlockwise",
     "centripetal_steps",
     "check_order",
     "chord_length_on_circle",

@@ -1,6 +1,6 @@
 """The boundary of a scan, found and ordered without a user."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import scipy.sparse as sp
@@ -12,6 +12,7 @@ from ..neighbors import Neighborhoods, break_ties, delaunay_star, nearest
 from ..neighbors import spacing as local_spacing
 from ..typing import Floats, Loop, Mask, Points
 from .detect import BOUNDARY_GAP, angular_gaps
+from .orient import anticlockwise
 from .rims import agreed_triangles, rims
 
 GAP_NEIGHBORS = 30
@@ -44,7 +45,7 @@ class FoundBoundary:
     Attributes
     ----------
     loop : (b,) int64
-        Boundary points in order.
+        Boundary points in order, anticlockwise.
     candidates : list of Candidate
         All loops that angular gaps support, the best first: ``candidates[0].loop`` is `loop`.
     gaps : (n,) float64
@@ -108,6 +109,7 @@ def find_boundary(
             "boundary, or cut the scan open"
         )
     good.sort(key=lambda c: -c.share * c.length)
+    good = [replace(candidate, loop=anticlockwise(cloud, candidate.loop)) for candidate in good]
     return FoundBoundary(good[0].loop, good, gaps)
 
 

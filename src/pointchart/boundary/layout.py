@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .._check import check_loop, check_points
+from .._check import check_convex, check_loop, check_points
 from ..errors import InputError
 from ..typing import UV, Floats, Indices, Loop, Points
 
@@ -113,7 +113,7 @@ def on_polygon(steps: Floats, vertices: ArrayLike, corners: Indices) -> UV:
            [0.  , 1.  ]])
     """
     lengths = _checked(steps)
-    polygon = _convex(np.asarray(vertices, dtype=np.float64))
+    polygon = check_convex(vertices, is_strict=True)
     places = np.asarray(corners)
     b, c = len(lengths), len(polygon)
     if len(places) != c or ((places < 0) | (places >= b)).any():
@@ -249,17 +249,6 @@ def _checked(steps: ArrayLike) -> Floats:
             "points that repeat give steps of length 0"
         )
     return lengths
-
-
-def _convex(polygon: UV) -> UV:
-    sides = np.roll(polygon, -1, axis=0) - polygon
-    following = np.roll(sides, -1, axis=0)
-    turns = sides[:, 0] * following[:, 1] - sides[:, 1] * following[:, 0]
-    if len(polygon) < 3 or not np.all(turns > 0.0):
-        raise InputError(
-            "the domain is no convex polygon: give its vertices anticlockwise, at least 3, without straight angles"
-        )
-    return polygon
 
 
 def reversed_loop(loop: Loop) -> Loop:

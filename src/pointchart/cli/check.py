@@ -9,7 +9,7 @@ import typer
 
 from ..certify import certify
 from ..errors import InputError
-from ..io import Scan, read_scan
+from ..io import Scan, check_output, read_scan
 from ..report import certificate_lines, certificate_report, summary, write_json
 from ..typing import UV
 from . import options as given
@@ -24,19 +24,23 @@ def check(
     quiet: given.QuietOption = False,
 ) -> None:
     """Check that a mesh is a disc, on the points of a scan if one is given; exit 1 if it is not."""
+    if report is not None:
+        check_output(report, suffixes=(".json",), inputs=[mesh] if points is None else [mesh, points])
     read = read_scan(mesh)
     if len(read.triangles) == 0:
         raise InputError(f"{mesh}: the file has {len(read.points)} points and no triangles; give a mesh")
     if points is not None:
         _compare(read, read_scan(points), mesh, points)
-    proof = certify(read.points, read.triangles, uv=_uv(read))
+    uv = _uv(read)
+    proof = certify(read.points, read.triangles, uv=uv)
     if report is not None:
         write_json(report, {"certificate": certificate_report(proof)})
     if not quiet:
         print("\n".join(certificate_lines(proof)), file=sys.stderr)
+    if not proof.is_disc or (uv is not None and not proof.is_one_to_one):
+        raise InputError(f"{mesh} is {summary(proof)}; mesh the scan again, or repair it")
+    if not quiet:
         print(f"{mesh}: {summary(proof)}", file=sys.stderr)
-    if not proof.is_disc or (proof.is_one_to_one is False and _uv(read) is not None):
-        raise typer.Exit(1)
 
 
 def _uv(read: Scan) -> UV | None:
@@ -51,10 +55,13 @@ def _compare(read: Scan, scan: Scan, mesh: Path, path: Path) -> None:
         raise InputError(
             f"{mesh} has {len(read.points)} vertices, {path} {len(scan.points)} points; they do not belong together"
         )
+    if np.issubdtype(rows.dtype, np.floating) or rows.min() < 0 or rows.max() >= len(scan.points):
+        raise InputError(f"{mesh} has a point_index that names no point of {path}; they do not belong together")
     extent = np.ptp(scan.points, axis=0).max()
     moved = np.flatnonzero(np.abs(read.points - scan.points[rows]).max(axis=1) > 1e-6 * extent)
     if len(moved):
         raise InputError(
-            f"{len(moved)} vertices of {mesh} are not where {path} has them (points {{moved}}): another scan",
+            f"{len(moved)} vertices of {mesh} are not where {path} has them (points {{moved}}): it is the mesh of "
+            "another scan, or in a format that keeps no order or too few digits, such as STL",
             moved=moved,
         )

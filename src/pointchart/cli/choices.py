@@ -4,9 +4,10 @@ from collections.abc import Callable
 from enum import StrEnum
 from functools import partial
 
+import typer
+
 from .. import boundary, chart, neighbors, pipeline, swaps, weights
 from ..chart import ChartRule
-from ..errors import InputError
 from ..neighbors import Neighborhoods
 from ..pipeline import Connect, LayoutRule
 from ..refine import SwapRule
@@ -75,20 +76,20 @@ SWAPS: dict[Swap, SwapRule] = {Swap.delaunay: swaps.swap_to_delaunay, Swap.none:
 CHARTS: dict[Chart, ChartRule] = {Chart.mesh: chart.uv_on_mesh, Chart.paper: chart.uv_of_points}
 
 
-def connect_rule(
-    kind: Neighbors | None, k: int | None, radius: float | None, weighting: Weighting | None
-) -> Connect | None:
+def connect_rule(kind: Neighbors | None, k: int | None, radius: float | None) -> Connect | None:
     """Return the function that finds neighbourhoods as asked for; None leaves the choice to the library."""
-    if kind is None and k is None and radius is None and weighting is None:
+    if kind is None and k is None and radius is None:
         return None
-    if radius is not None and not radius > 0.0:
-        raise InputError(f"--radius is {radius:g}; it has to be positive, some 2 to 4 times the spacing of the points")
+    if radius is not None and not 0.0 < radius < float("inf"):
+        raise typer.BadParameter(
+            f"--radius is {radius:g}; it has to be positive and finite, some 2 to 4 times the spacing of the points"
+        )
     if kind is Neighbors.ball:
         if k is not None or radius is None:
-            raise InputError("--neighbors ball needs --radius and no -k")
+            raise typer.BadParameter("--neighbors ball needs --radius and no -k")
         return partial(neighbors.ball, radius=radius)
     if radius is not None and k is not None:
-        raise InputError("-k and --radius exclude each other: candidates are either the k nearest or those in a ball")
+        raise typer.BadParameter("-k and --radius exclude each other: candidates are the k nearest or those in a ball")
     around: Callable[[Points], Neighborhoods] = (
         partial(neighbors.nearest, k=pipeline.NEAREST if k is None else k)
         if radius is None
@@ -96,9 +97,16 @@ def connect_rule(
     )
     if kind is Neighbors.nearest:
         if radius is not None:
-            raise InputError("--neighbors nearest takes -k and no --radius; for a ball say --neighbors ball")
+            raise typer.BadParameter("--neighbors nearest takes -k and no --radius; for a ball say --neighbors ball")
         return around
     return lambda points: neighbors.delaunay_star(points, around(points))
+
+
+def weights_rule(weighting: Weighting | None, kind: Neighbors | None) -> WeightScheme | None:
+    """Return the weights asked for; unordered neighbours get reciprocal distances, if nothing is said."""
+    if weighting is not None:
+        return WEIGHTS[weighting]
+    return weights.reciprocal_distance if kind in (Neighbors.ball, Neighbors.nearest) else None
 
 
 def layout_rule(domain: Domain, spacing: Spacing, corners: str | None) -> LayoutRule:
@@ -106,7 +114,7 @@ def layout_rule(domain: Domain, spacing: Spacing, corners: str | None) -> Layout
     steps = STEPS[spacing]
     if domain is Domain.circle:
         if corners is not None:
-            raise InputError("--corners needs --domain square")
+            raise typer.BadParameter("--corners needs --domain square")
         return lambda points, loop: boundary.on_circle(steps(points, loop))
     named = None if corners is None else _corner_names(corners)
 
@@ -120,5 +128,5 @@ def layout_rule(domain: Domain, spacing: Spacing, corners: str | None) -> Layout
 def _corner_names(text: str) -> list[int]:
     words = text.split(",")
     if len(words) != 4 or not all(word.strip().isdigit() for word in words):
-        raise InputError(f"--corners is '{text}'; four boundary points are needed, such as 12,480,971,1500")
+        raise typer.BadParameter(f"--corners is '{text}'; four boundary points are needed, such as 12,480,971,1500")
     return [int(word) for word in words]

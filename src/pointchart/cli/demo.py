@@ -7,6 +7,7 @@ from typing import Annotated
 import numpy as np
 import typer
 
+from ..errors import FormatError
 from ..io import check_output, write_mesh
 from ..pipeline import reconstruct
 from ..report import certificate_lines, summary
@@ -26,14 +27,18 @@ def demo(
 
     if out.is_file():
         raise typer.BadParameter(f"{out} is a file; name a folder", param_hint="--out")
-    out.mkdir(parents=True, exist_ok=True)
+    try:
+        out.mkdir(parents=True, exist_ok=True)
+    except OSError as reason:
+        raise FormatError(f"{out}: the folder cannot be made ({reason.strerror}); choose another") from None
     cloud, mesh, picture = (out / name for name in ("scan.ply", "mesh.ply", "picture.png"))
     for path in (cloud, mesh, picture):
         check_output(path, suffixes=(".ply", ".png"))
-    points = shapes.demo_scan().points
+    scan = shapes.demo_scan().points
     with staged(quiet) as clock:
-        result = reconstruct(points, clock=clock)
-    write_mesh(cloud, points, np.empty((0, 3), np.int64))
+        result = reconstruct(scan, clock=clock)
+    points = scan[result.rows]
+    write_mesh(cloud, scan, np.empty((0, 3), np.int64))
     write_mesh(mesh, points, result.triangles, uv=result.uv)
     draw_run(picture, points, result.triangles, result.uv, result.loop, view=(28.0, -8.0))
     if not quiet:

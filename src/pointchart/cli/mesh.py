@@ -10,7 +10,7 @@ from ..io import MESH_SUFFIXES, check_output, read_loop, read_scan, write_mesh
 from ..pipeline import Reconstruction, reconstruct
 from ..report import certificate_lines, run_report, summary, write_json
 from . import options as given
-from .choices import CHARTS, SWAPS, WEIGHTS, Chart, Domain, Spacing, Swap, Weighting, connect_rule, layout_rule
+from .choices import CHARTS, SWAPS, Chart, Domain, Spacing, Swap, connect_rule, layout_rule, weights_rule
 from .output import carried, given_options
 from .progress import staged
 
@@ -41,7 +41,7 @@ def mesh(
     check_output(out, suffixes=MESH_SUFFIXES, inputs=inputs)
     if report is not None:
         check_output(report, suffixes=(".json",), inputs=[*inputs, out])
-    connect, layout = connect_rule(neighbors, k, radius, weights), layout_rule(domain, spacing, corners)
+    connect, layout = connect_rule(neighbors, k, radius), layout_rule(domain, spacing, corners)
     read = read_scan(scan)
     loop = None if boundary is None else read_loop(boundary)
     with staged(quiet) as clock:
@@ -49,17 +49,17 @@ def mesh(
             read.points,
             loop,
             connect=connect,
-            weights=WEIGHTS[weights or Weighting.mean_value],
+            weights=weights_rule(weights, neighbors),
             swap=SWAPS[swap],
             layout=layout,
             chart=CHARTS[uv],
             clock=clock,
         )
-    attributes = carried(read, result.rows)
-    notes = write_mesh(out, read.points[result.rows], result.triangles, uv=result.uv, attributes=attributes)
     if report is not None:
         run = run_report(read.points, result, clock, given_options(context), boundary_given=boundary is not None)
         write_json(report, run)
+    points, attributes = read.points[result.rows], carried(read, result.rows)
+    notes = write_mesh(out, points, result.triangles, uv=result.uv, attributes=attributes)
     if not quiet:
         _say(out, len(read.points), result, notes, boundary is None)
 

@@ -31,7 +31,10 @@ KOption = Annotated[
 RadiusOption = Annotated[float | None, typer.Option("--radius", help="Radius of the ball, in the unit of the scan.")]
 WeightsOption = Annotated[
     Weighting | None,
-    typer.Option("--weights", help="Convex weights of the paper's methods instead of trusted links; else mean-value."),
+    typer.Option(
+        "--weights",
+        help="Convex weights of the paper's methods; by default mean-value, reciprocal for ball and nearest.",
+    ),
 ]
 DomainOption = Annotated[
     Domain, typer.Option("--domain", help="Convex domain of the parameters: unit circle or unit square.")

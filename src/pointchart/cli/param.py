@@ -12,7 +12,7 @@ from ..pipeline import parameterize_scan
 from ..report import solve_report, write_json
 from ..triangulate import coinciding
 from . import options as given
-from .choices import WEIGHTS, Domain, Spacing, Weighting, connect_rule, layout_rule
+from .choices import Domain, Spacing, connect_rule, layout_rule, weights_rule
 from .output import carried, given_options
 from .progress import staged
 
@@ -39,7 +39,7 @@ def param(
     check_output(out, suffixes=UV_SUFFIXES, inputs=inputs)
     if report is not None:
         check_output(report, suffixes=(".json",), inputs=[*inputs, out])
-    connect, layout = connect_rule(neighbors, k, radius, weights), layout_rule(domain, spacing, corners)
+    connect, layout = connect_rule(neighbors, k, radius), layout_rule(domain, spacing, corners)
     read = read_scan(scan)
     loop = None if boundary is None else read_loop(boundary)
     with staged(quiet) as clock:
@@ -47,7 +47,7 @@ def param(
             read.points,
             loop,
             connect=connect,
-            weights=WEIGHTS[weights or Weighting.mean_value],
+            weights=weights_rule(weights, neighbors),
             layout=layout,
             clock=clock,
         )

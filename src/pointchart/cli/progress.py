@@ -43,13 +43,18 @@ def staged(quiet: bool) -> Iterator[StageClock]:
     )
     with Progress(*columns, console=Console(stderr=True), transient=True) as progress:
         task = progress.add_task("reading", total=100)
-        yield StageClock(lambda name: progress.update(task, description=name, completed=OVER_BY[name]))
+
+        def show(name: str) -> None:
+            progress.update(task, description=name, completed=max(OVER_BY.get(name, 0), progress.tasks[task].completed))
+
+        yield StageClock(show)
 
 
 def _warn_of_first_run() -> None:
     """Say why the first run on a machine waits: the kernels are compiled once and kept."""
     from .._kernels.stars import delaunay_stars
 
-    cache: Any = vars(delaunay_stars)["_cache"]
-    if not any(Path(cache.cache_path).glob("stars.delaunay_stars*.nbi")):
+    cache: Any = getattr(delaunay_stars, "_cache", None)
+    folder = getattr(cache, "cache_path", None)
+    if folder is not None and not any(Path(folder).glob("stars.delaunay_stars*.nbi")):
         print("pointchart: first run on this machine: compiling its kernels, some 20 seconds, once", file=sys.stderr)

@@ -1,5 +1,6 @@
 """Boundary loops as text: one 0-based point index a line, in order, not closed."""
 
+import re
 from itertools import chain
 
 import numpy as np
@@ -56,8 +57,17 @@ def write_loop(path: AnyPath, loop: Indices) -> None:
 
 def _parse(line: str, number: int, path: AnyPath) -> list[int]:
     fields = line.partition("#")[0].replace(",", " ").split()
+    fields = [_whole(field) for field in fields]
     if not all(map(is_index, fields)):
         raise FormatError(
             f"{path}: line {number} '{line.strip()[:60]}' is not a 0-based point index; write whole numbers from 0 on"
         )
     return list(map(int, fields))
+
+
+def _whole(field: str) -> str:
+    """Write a whole number without its fraction: other programs save indices as 1.1e+01."""
+    if not re.fullmatch(r"\d+\.\d*(e[+-]?\d\d?)?", field, re.IGNORECASE):
+        return field
+    number = float(field)
+    return str(int(number)) if number.is_integer() else field

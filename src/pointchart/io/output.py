@@ -36,7 +36,7 @@ def check_output(path: AnyPath, *, suffixes: Sequence[str], inputs: Iterable[Any
     target = Path(path)
     if target.suffix.lower() not in suffixes:
         known = ", ".join(suffixes)
-        raise FormatError(f"{path}: the suffix '{target.suffix}' is none of the {len(suffixes)} possible here: {known}")
+        raise FormatError(f"{path}: the suffix '{target.suffix}' cannot be written here; choose one of {known}")
     folder = _resolved(target).parent
     if not folder.exists():
         raise FormatError(f"{path}: the folder {folder} does not exist; create it first")

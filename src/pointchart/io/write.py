@@ -100,7 +100,7 @@ def _writer(path: AnyPath, writers: dict[str, _Writer]) -> _Writer:
     suffix = Path(path).suffix.lower()
     if suffix not in writers:
         known = ", ".join(writers)
-        raise FormatError(f"{path}: the suffix '{suffix}' is none of the {len(writers)} possible here: {known}")
+        raise FormatError(f"{path}: the suffix '{suffix}' cannot be written here; choose one of {known}")
     return writers[suffix]
 
 
@@ -138,15 +138,17 @@ def _mesh_off(path: Path, points: Points, triangles: Triangles, uv: UV | None, a
 
 
 def _mesh_stl(path: Path, points: Points, triangles: Triangles, uv: UV | None, attributes: Attributes) -> list[str]:
+    notes = _digits_lost("STL", points)
     with path.open("wb") as file:
         write_stl(file, points, triangles)
-    return _digits_lost("STL", points) + _left_out("STL", _columns(uv) | attributes)
+    return notes + _left_out("STL", _columns(uv) | attributes)
 
 
 def _mesh_glb(path: Path, points: Points, triangles: Triangles, uv: UV | None, attributes: Attributes) -> list[str]:
+    notes = _digits_lost("GLB", points)
     with path.open("wb") as file:
         write_glb(file, points, triangles, uv)
-    return _digits_lost("GLB", points) + _left_out("GLB", attributes)
+    return notes + _left_out("GLB", attributes)
 
 
 def _mesh_npz(path: Path, points: Points, triangles: Triangles, uv: UV | None, attributes: Attributes) -> list[str]:
@@ -188,7 +190,7 @@ def _columns(uv: UV | None) -> Attributes:
 def _left_out(kind: str, attributes: Attributes) -> list[str]:
     if not attributes:
         return []
-    return [f"{kind} cannot hold {', '.join(attributes)}, which are left out; write .ply to keep them."]
+    return [f"pointchart writes no {', '.join(attributes)} to {kind}; write .ply to keep them."]
 
 
 def _digits_lost(kind: str, points: Points) -> list[str]:
@@ -200,11 +202,16 @@ def _digits_lost(kind: str, points: Points) -> list[str]:
     extent = float(np.ptp(points, axis=0).max())
     error = float(np.abs(single - points).max())
     n_merged = len(distinct_rows(points)[0]) - len(distinct_rows(single)[0])
-    if n_merged == 0 and error <= 1e-6 * extent:
+    if n_merged:
+        raise FormatError(
+            f"{kind} holds single precision, which makes {n_merged} of these points coincide with others (they move by "
+            f"up to {error:.2g}, their extent is {extent:.2g}); write .ply, or subtract the offset first"
+        )
+    if error <= 1e-6 * extent:
         return []
     return [
-        f"{kind} holds single precision, which moves these points by up to {error:.2g} (their extent is {extent:.2g}) "
-        f"and makes {n_merged} of them coincide with others; write .ply to keep every digit."
+        f"{kind} holds single precision, which moves these points by up to {error:.2g} (their extent is {extent:.2g}); "
+        "write .ply to keep every digit."
     ]
 
 

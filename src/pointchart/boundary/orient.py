@@ -2,9 +2,10 @@
 
 import numpy as np
 
-from .boundary import reversed_loop
-from .typing import Loop, Points
+from ..typing import Loop, Points
+from .layout import reversed_loop
 
+UPRIGHT = 0.9  # cosine of the slope of the boundary's plane, over which above is a side of the patch
 LEVEL = 0.15  # mean height over the root of the loop's area, under which a patch counts as level, such as terrain
 
 
@@ -12,7 +13,7 @@ def anticlockwise(points: Points, loop: Loop) -> Loop:
     """Turn a loop so that it runs anticlockwise seen from the outside of the patch.
 
     A point cloud has no side of its own. The outside is taken to be where the patch bulges to from the plane of its
-    boundary, and above for a nearly level patch, such as terrain or a relief that lies flat.
+    boundary, and above for a nearly level patch on a nearly horizontal boundary, such as terrain.
 
     Parameters
     ----------
@@ -34,5 +35,5 @@ def anticlockwise(points: Points, loop: Loop) -> Loop:
     area = 0.5 * np.cross(corners, np.roll(corners, -1, axis=0)).sum(axis=0)
     size = np.linalg.norm(area)
     bulge = (points - points[loop].mean(axis=0)).mean(axis=0) @ area
-    is_level = abs(bulge) <= LEVEL * size**1.5 and abs(area[2]) > 0.5 * size
+    is_level = abs(bulge) <= LEVEL * size**1.5 and abs(area[2]) > UPRIGHT * size
     return reversed_loop(loop) if (area[2] if is_level else bulge) < 0.0 else loop
