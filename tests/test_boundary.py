@@ -403,3 +403,14 @@ def test_a_mirrored_cap_turns_the_other_way():
     tent = np.array([[1.0, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0], [0, 0, 2]])
     assert anticlockwise(tent, np.array([0, 1, 2, 3])).tolist() == [0, 1, 2, 3]
     assert anticlockwise(tent * [1, 1, -1], np.array([0, 1, 2, 3])).tolist() == [0, 3, 2, 1]
+
+
+def test_a_relief_on_a_tilted_boundary_faces_its_bulge_whichever_way_it_is_turned():
+    cap = shapes.hemisphere(400, angle=40)
+    axis = np.array([1.0, 2.0, 0.5]) / np.linalg.norm([1.0, 2.0, 0.5])
+    for tilt in np.deg2rad([40, 75, 110, 150, 200, 250]):
+        cross = np.cross(np.eye(3), axis)
+        rotation = np.cos(tilt) * np.eye(3) + np.sin(tilt) * cross + (1 - np.cos(tilt)) * np.outer(axis, axis)
+        points = cap.points @ rotation.T
+        assert np.array_equal(anticlockwise(points, cap.boundary), cap.boundary)
+        assert np.array_equal(anticlockwise(points, cap.boundary[::-1])[1:], np.roll(cap.boundary, 1)[1:])

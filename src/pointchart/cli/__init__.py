@@ -29,9 +29,6 @@ def main() -> None:
         _leave(str(error))
     except MemoryError:
         _leave("not enough memory for this scan; thin it, or use a machine with more")
-    except KeyboardInterrupt:
-        print("pointchart: interrupted; nothing was written", file=sys.stderr)
-        sys.exit(130)
 
 
 def _leave(sentence: str) -> None:
