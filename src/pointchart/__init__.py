@@ -28,7 +28,7 @@ from .errors import FormatError, InputError, PointchartError, SolveError
 from .io import Scan, read_loop, read_scan, write_loop, write_mesh, write_uv
 from .links import Links, distrust_far, link_stars, trusted
 from .mesh import one_rings
-from .neighbors import Neighborhoods, ball, delaunay_star, nearest, normals, spacing
+from .neighbors import Neighborhoods, ball, delaunay_star, nearest, nearest_star, normals, spacing
 from .parameterize import Parameterization, parameterize
 from .pipeline import Reconstruction, parameterize_scan, reconstruct, survey_scan
 from .prepare import Cloud, prepare
@@ -77,6 +77,7 @@ __all__ = [
     "mean_value",
     "multigrid",
     "nearest",
+    "nearest_star",
     "normals",
     "on_circle",
     "on_polygon",

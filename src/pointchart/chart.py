@@ -1,18 +1,19 @@
 """The parameters of a finished mesh: one-to-one on the mesh, or the paper's own."""
 
 from collections.abc import Callable
-from typing import TypeAlias
+from typing import TypeAlias, cast
 
 from ._exact import orientation_signs
+from .errors import SolveError
 from .mesh import one_rings
 from .parameterize import Parameterization, parameterize, solve_map
 from .quality import vertex_stretches
 from .refine import Meshed
 from .solve import Solver
-from .typing import UV, Loop, Points
-from .weights import mean_value, normalize
+from .typing import UV, Loop, Points, Weights
+from .weights import WeightScheme, mean_value, normalize, uniform
 
-MOST_SOLVES = 6
+SOLVES = 5
 
 ChartRule: TypeAlias = Callable[[Points, Loop, UV, Meshed, Solver], Parameterization]
 
@@ -21,24 +22,52 @@ def uv_on_mesh(points: Points, loop: Loop, boundary_uv: UV, meshed: Meshed, solv
     """Map the mesh by mean value weights: one-to-one, by Tutte's and Floater's theorem.
 
     Where a triangle is flat in double precision all the same, weights are divided by the stretch at the neighbour,
-    which opens what has shrunk, and the map is solved again. Weights stay positive, so the theorem holds throughout.
+    which opens what has shrunk, and the map is solved again; failing that, the same is done from uniform weights,
+    Tutte's own. Weights stay positive, so the theorem holds throughout.
+
+    Parameters
+    ----------
+    points : (n, 3) array
+    loop : (b,) int array
+        Boundary, anticlockwise.
+    boundary_uv : (b, 2) array
+        Where it goes on the convex domain, anticlockwise.
+    meshed : Meshed
+    solver : callable
+        See `solve_fixed`.
+
+    Returns
+    -------
+    Parameterization
+        One-to-one, or the last one tried: the certificate tells.
 
     References
     ----------
-    Floater 2003, One-to-one piecewise linear mappings over triangulations.
-    Yoshizawa, Belyaev and Seidel 2004, A fast and simple stretch-minimizing mesh parameterization, equation (4).
+    Tutte 1963, How to draw a graph. Floater 2003, One-to-one piecewise linear mappings over triangulations.
+    Yoshizawa, Belyaev and Seidel 2004, A fast and simple stretch-minimizing mesh parameterization.
     """
     triangles = meshed.swapped.triangles
     rings = one_rings(triangles, len(points))
-    weights = mean_value(points, rings)
-    for solves in range(1, MOST_SOLVES + 1):
-        fixed = weights
-        mapped = solve_map(points, loop, boundary_uv, rings, weights=lambda *_, fixed=fixed: fixed, solver=solver)
-        if solves == MOST_SOLVES or (orientation_signs(mapped.uv, triangles) > 0).all():
-            break
-        stretch = vertex_stretches(points, triangles, mapped.uv)
-        weights = normalize(weights / stretch[rings.indices], rings)
-    return mapped
+    mapped: Parameterization | None = None
+    for scheme in (mean_value, uniform):
+        weights = scheme(points, rings)
+        for _ in range(SOLVES):
+            try:
+                mapped = solve_map(points, loop, boundary_uv, rings, weights=fixed(weights), solver=solver)
+            except SolveError:
+                if mapped is None:
+                    raise
+                break
+            if (orientation_signs(mapped.uv, triangles) > 0).all():
+                return mapped
+            stretch = vertex_stretches(points, triangles, mapped.uv)
+            weights = normalize(weights / stretch[rings.indices], rings)
+    return cast(Parameterization, mapped)
+
+
+def fixed(weights: Weights) -> WeightScheme:
+    """Make a scheme of weights that are known already."""
+    return lambda points, neighborhoods: weights
 
 
 def uv_of_points(points: Points, loop: Loop, boundary_uv: UV, meshed: Meshed, solver: Solver) -> Parameterization:

@@ -15,6 +15,7 @@ from .typing import Floats, Indices, Mask, Points
 
 STEEPEST = 0.8  # sine of the steepest neighbour against the tangent plane; steeper ones lie on another sheet
 TIE_BREAK = 1e-2
+WIDER = 4
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -161,7 +162,7 @@ def nearest(points: ArrayLike, k: int = 20) -> Neighborhoods:
         raise InputError(f"k is {k}; every point needs at least one neighbour, and 8 to 30 work well")
     n, k = len(cloud), min(k, len(cloud) - 1)
     found = search(cKDTree(cloud), cloud, k + 1)[1]
-    return Neighborhoods(np.arange(0, n * k + 1, k), _without_self(found).ravel())
+    return Neighborhoods(np.arange(0, n * k + 1, k), _without(np.arange(n), found).ravel())
 
 
 def search(tree: cKDTree, points: Floats, k: int) -> tuple[Floats, Indices]:
@@ -182,9 +183,9 @@ def search(tree: cKDTree, points: Floats, k: int) -> tuple[Floats, Indices]:
     return distance, index
 
 
-def _without_self(found: Indices) -> Indices:
+def _without(points: Indices, found: Indices) -> Indices:
     """Drop each point from its own row of nearest points, or the farthest where rounding has pushed it out."""
-    own = found == np.arange(len(found))[:, None]
+    own = found == points[:, None]
     own[~own.any(axis=1), -1] = True
     return np.asarray(found[~own].reshape(len(found), -1))
 
@@ -308,6 +309,65 @@ def delaunay_star(points: ArrayLike, around: Neighborhoods, *, planes: Neighborh
     cloud = check_points(points)
     check_neighbors(around.indices, around.n_points, len(cloud))
     return _compact(around, *_stars(cloud, normals(cloud, planes or around), around)[:4])
+
+
+def nearest_star(points: ArrayLike, around: Neighborhoods) -> Neighborhoods:
+    """Find the Delaunay neighbours of each point among its nearest, and among more where its star asks for it.
+
+    A star is the true one if no point beyond the candidates can lie in one of its circles: if its largest
+    circumcircle, which passes through the centre, is no wider than the candidates reach. Where it is wider, as across
+    the gaps between the lines of a scan, four times as many are searched; the plane stays that of the nearest.
+
+    Parameters
+    ----------
+    points : (n, 3) array
+        Distinct points.
+    around : Neighborhoods
+        The same number of nearest points of each, nearest first.
+
+    Returns
+    -------
+    Neighborhoods
+        As those of `delaunay_star`.
+
+    Examples
+    --------
+    >>> tracks = [[x, 3 * y, 0] for y in range(3) for x in range(12)]
+    >>> near = nearest(tracks, 8)
+    >>> sorted(nearest_star(tracks, near).indices[nearest_star(tracks, near).rows == 17].tolist())
+    [5, 16, 18, 29]
+    """
+    cloud = check_points(points)
+    check_neighbors(around.indices, around.n_points, len(cloud))
+    normal = normals(cloud, around)
+    star, local, count, is_open, diameter = _stars(cloud, normal, around)
+    found = _compact(around, star, local, count, is_open)
+    reach = np.linalg.norm(cloud[around.indices[around.indptr[1:] - 1]] - cloud, axis=1)
+    short = np.flatnonzero(~is_open & (diameter > reach))
+    wide = min(WIDER * int(around.sizes.max()), len(cloud) - 1)
+    if len(short) == 0 or wide <= around.sizes.max():
+        return found
+    candidates = _without(short, search(cKDTree(cloud), cloud[short], wide + 1)[1])
+    sizes = np.zeros(len(cloud), np.int64)
+    sizes[short] = wide
+    widened = Neighborhoods(np.concatenate([[0], np.cumsum(sizes)]), candidates.ravel())
+    again = _compact(widened, *_stars(cloud, normal, widened)[:4])
+    return _replace_rows(found, short, again)
+
+
+def _replace_rows(found: Neighborhoods, rows: Indices, by: Neighborhoods) -> Neighborhoods:
+    """Take some stars from other neighbourhoods, which hold those alone."""
+    is_replaced = np.zeros(found.n_points, bool)
+    is_replaced[rows] = True
+    kept = ~np.repeat(is_replaced, found.sizes)
+    centers = np.concatenate([found.rows[kept], by.rows])
+    order = np.argsort(centers, kind="stable")
+    indptr = np.concatenate([[0], np.cumsum(np.bincount(centers, minlength=found.n_points))])
+    indices = np.concatenate([found.indices[kept], by.indices])[order]
+    if found.local is None or by.local is None or found.is_open is None or by.is_open is None:
+        return Neighborhoods(indptr, indices)
+    local = np.concatenate([found.local[kept], by.local])[order]
+    return Neighborhoods(indptr, indices, local, np.where(is_replaced, by.is_open, found.is_open))
 
 
 def _stars(cloud: Points, normal: Floats, around: Neighborhoods) -> tuple[Indices, Floats, Indices, Mask, Floats]:

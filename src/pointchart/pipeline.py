@@ -23,7 +23,7 @@ from .chart import ChartRule, uv_on_mesh
 from .clock import StageClock
 from .errors import SolveError, points_called
 from .links import link_stars
-from .neighbors import Neighborhoods, delaunay_star, nearest
+from .neighbors import Neighborhoods, nearest, nearest_star
 from .neighbors import spacing as local_spacing
 from .parameterize import Parameterization, parameterize
 from .prepare import Cloud, prepare
@@ -231,7 +231,7 @@ def survey_scan(points: ArrayLike, loop: ArrayLike | None = None, *, clock: Stag
         with clock("neighbours"):
             around = nearest(cloud.points, NEAREST)
             spacing = local_spacing(cloud.points, around=around)
-            star = delaunay_star(cloud.points, around)
+            star = nearest_star(cloud.points, around)
         with clock("boundary"):
             if given is None:
                 found = find_boundary(cloud.points, around=around, spacing=spacing)
@@ -284,7 +284,7 @@ def parameterize_scan(
 
 
 def _default_stars(points: Points) -> Neighborhoods:
-    return delaunay_star(points, nearest(points, NEAREST))
+    return nearest_star(points, nearest(points, NEAREST))
 
 
 def _mesh(

@@ -111,7 +111,8 @@ def stretches(points: Points, triangles: Triangles, uv: UV) -> tuple[Floats, Flo
 def vertex_stretches(points: Points, triangles: Triangles, uv: UV) -> Floats:
     """Measure the stretch at each point: root of the mean square over its triangles, weighed by area, (n,).
 
-    Triangles that are flat in the plane, of infinite stretch, count as ten times the largest finite one.
+    Triangles that are flat in the plane, of infinite stretch, count as ten times the largest finite one, and points
+    without any area around them as 1.
 
     References
     ----------
@@ -131,7 +132,8 @@ def vertex_stretches(points: Points, triangles: Triangles, uv: UV) -> Floats:
     area = np.linalg.norm(area_vectors(points, triangles), axis=1)
     corners = triangles.ravel()
     total = np.bincount(corners, np.repeat(area * square, 3), len(points))
-    return np.asarray(np.sqrt(total / np.bincount(corners, np.repeat(area, 3), len(points))))
+    around = np.bincount(corners, np.repeat(area, 3), len(points))
+    return np.sqrt(np.divide(total, around, out=np.ones(len(points)), where=total > 0.0))
 
 
 def l2_stretch(points: Points, triangles: Triangles, uv: UV) -> float:

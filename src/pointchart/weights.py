@@ -15,6 +15,8 @@ from .errors import InputError
 from .neighbors import Neighborhoods
 from .typing import Floats, Indices, Points, Weights
 
+LEAST_TANGENT = 1e-14  # weights stay positive between neighbours in one direction
+
 WeightScheme: TypeAlias = Callable[[Points, Neighborhoods], Weights]
 
 
@@ -127,6 +129,7 @@ def mean_value(points: Points, neighborhoods: Neighborhoods) -> Weights:
     # A lone neighbour, or a fan without any angle, has no weights of its own.
     has_none = np.bincount(neighborhoods.rows, both, neighborhoods.n_points) == 0.0
     both[has_none[neighborhoods.rows]] = 1.0
+    both = np.maximum(both, LEAST_TANGENT)
     return normalize(both / length, neighborhoods)
 
 

@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike
 
 from .._check import check_points
 from ..errors import InputError
-from ..neighbors import Neighborhoods, break_ties, delaunay_star, nearest
+from ..neighbors import Neighborhoods, break_ties, nearest, nearest_star
 from ..neighbors import spacing as local_spacing
 from ..typing import Floats, Loop, Mask, Points
 from .detect import BOUNDARY_GAP, angular_gaps
@@ -93,8 +93,8 @@ def find_boundary(
     cloud = check_points(points)
     candidates = around or nearest(cloud)
     step = local_spacing(cloud, around=candidates) if spacing is None else spacing
-    star = delaunay_star(break_ties(cloud, step), candidates)
-    check_one_piece(star)
+    check_one_piece(candidates)
+    star = nearest_star(break_ties(cloud, step), candidates)
     gaps = angular_gaps(cloud, nearest(cloud, GAP_NEIGHBORS))
     found = [
         measure(cloud, loop, gaps > BOUNDARY_GAP) for loop in rims(agreed_triangles(cloud, star, step), len(cloud))
@@ -113,7 +113,7 @@ def find_boundary(
     return FoundBoundary(good[0].loop, good, gaps)
 
 
-def check_one_piece(star: Neighborhoods) -> None:
+def check_one_piece(around: Neighborhoods) -> None:
     """Check that the neighbourhoods join all points.
 
     Raises
@@ -121,8 +121,8 @@ def check_one_piece(star: Neighborhoods) -> None:
     InputError
         Saying how many parts there are and how large, with a point of each.
     """
-    n = star.n_points
-    graph = sp.csr_array((np.ones(len(star.indices), np.int8), star.indices, star.indptr), shape=(n, n))
+    n = around.n_points
+    graph = sp.csr_array((np.ones(len(around.indices), np.int8), around.indices, around.indptr), shape=(n, n))
     count, labels = sp.csgraph.connected_components(graph, directed=False)
     if count > 1:
         sizes = np.bincount(labels)
