@@ -3,6 +3,7 @@ import os
 import signal
 import subprocess
 import sys
+from importlib.metadata import version
 from pathlib import Path
 
 import numpy as np
@@ -396,3 +397,13 @@ def test_ctrl_c_ends_a_run_with_130_and_leaves_the_old_file(tmp_path, stage, del
     assert "Traceback" not in done.stderr
     assert (tmp_path / "m.ply").read_text() == "old"
     assert sorted(path.name for path in tmp_path.iterdir()) == ["m.ply", "scan.npy"]
+
+
+def test_the_version_is_that_of_the_package(run):
+    assert run("--version") == (0, f"pointchart {version('pointchart')}\n", "")
+
+
+def test_help_has_a_short_name_and_lists_the_commands(run):
+    code, out, _ = run("-h")
+    assert code == 0
+    assert all(command in out for command in ("mesh", "param", "boundary", "check", "demo"))
