@@ -88,7 +88,7 @@ def run_report(
     return {
         "points": {"read": len(scan), "distinct": len(points), "repeated": len(scan) - len(points)},
         "options": options,
-        "stages": [{"name": name, "seconds": round(seconds, 4)} for name, seconds in clock.seconds.items()],
+        "stages": stages_report(clock),
         "peak_memory_mb": peak_memory_mb(),
         "boundary": {
             "points": len(result.loop),
@@ -131,6 +131,11 @@ def certificate_report(proof: Certificate) -> dict[str, Any]:
         "points": proof.n_points,
         "triangles": proof.n_triangles,
     }
+
+
+def stages_report(clock: StageClock) -> list[dict[str, Any]]:
+    """Return the time of each stage as plain data for JSON."""
+    return [{"name": name, "seconds": round(seconds, 4)} for name, seconds in clock.seconds.items()]
 
 
 def solve_report(solution: Solution) -> dict[str, Any]:

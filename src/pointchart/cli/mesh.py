@@ -6,11 +6,12 @@ from typing import Annotated
 
 import typer
 
-from ..io import MESH_SUFFIXES, check_output, read_loop, read_scan, write_mesh
+from ..io import MESH_SUFFIXES, write_mesh
 from ..pipeline import Reconstruction, reconstruct
 from ..report import certificate_lines, run_report, summary, write_json
 from . import options as given
 from .choices import CHARTS, SWAPS, Chart, Domain, Spacing, Swap, connect_rule, layout_rule, weights_rule
+from .inputs import read_inputs
 from .output import carried, given_options
 from .progress import staged
 
@@ -37,13 +38,8 @@ def mesh(
     quiet: given.QuietOption = False,
 ) -> None:
     """Mesh a scan of one surface patch: a triangle mesh on exactly its points, certified to be a disc, with uv."""
-    inputs = [scan] if boundary is None else [scan, boundary]
-    check_output(out, suffixes=MESH_SUFFIXES, inputs=inputs)
-    if report is not None:
-        check_output(report, suffixes=(".json",), inputs=[*inputs, out])
     connect, layout = connect_rule(neighbors, k, radius), layout_rule(domain, spacing, corners)
-    read = read_scan(scan)
-    loop = None if boundary is None else read_loop(boundary)
+    read, loop = read_inputs(scan, boundary, out=out, suffixes=MESH_SUFFIXES, report=report)
     with staged(quiet) as clock:
         result = reconstruct(
             read.points,

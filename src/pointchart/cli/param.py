@@ -7,12 +7,13 @@ from typing import Annotated
 import numpy as np
 import typer
 
-from ..io import UV_SUFFIXES, check_output, read_loop, read_scan, write_uv
+from ..io import UV_SUFFIXES, write_uv
 from ..pipeline import parameterize_scan
-from ..report import solve_report, write_json
+from ..report import solve_report, stages_report, write_json
 from ..triangulate import coinciding
 from . import options as given
 from .choices import Domain, Spacing, connect_rule, layout_rule, weights_rule
+from .inputs import read_inputs
 from .output import carried, given_options
 from .progress import staged
 
@@ -35,13 +36,8 @@ def param(
     quiet: given.QuietOption = False,
 ) -> None:
     """Give every point of a scan planar parameters by the paper's method, without a mesh; row i is point i."""
-    inputs = [scan] if boundary is None else [scan, boundary]
-    check_output(out, suffixes=UV_SUFFIXES, inputs=inputs)
-    if report is not None:
-        check_output(report, suffixes=(".json",), inputs=[*inputs, out])
     connect, layout = connect_rule(neighbors, k, radius), layout_rule(domain, spacing, corners)
-    read = read_scan(scan)
-    loop = None if boundary is None else read_loop(boundary)
+    read, loop = read_inputs(scan, boundary, out=out, suffixes=UV_SUFFIXES, report=report)
     with staged(quiet) as clock:
         survey, mapped = parameterize_scan(
             read.points,
@@ -55,11 +51,8 @@ def param(
     notes = write_uv(out, uv, points=read.points, attributes=carried(read, np.arange(len(uv))))
     doubled = len(coinciding(mapped.uv))
     if report is not None:
-        stages = [{"name": name, "seconds": round(seconds, 4)} for name, seconds in clock.seconds.items()]
-        solved = solve_report(mapped.solution)
-        write_json(
-            report, {"options": given_options(context), "stages": stages, "solve": solved, "coinciding_uv": doubled}
-        )
+        run = {"options": given_options(context), "stages": stages_report(clock)}
+        write_json(report, run | {"solve": solve_report(mapped.solution), "coinciding_uv": doubled})
     if not quiet:
         print("\n".join(notes), end="\n" if notes else "", file=sys.stderr)
         solution = mapped.solution
