@@ -1,11 +1,12 @@
-"""Flat, rolled, folded and bumpy sheets, with answers in closed form."""
+"""Flat, rolled, folded, bumpy and necked sheets."""
 
-from math import pi, radians, sqrt
+from math import pi, sqrt
 
 import numpy as np
 
 from pointchart.errors import InputError
-from pointchart.shapes.planar import delaunay
+from pointchart.shapes.bend import raise_bumps, roll
+from pointchart.shapes.planar import delaunay, ragged_delaunay
 from pointchart.shapes.sampling import polar, ring_turns, split_rim, sunflower
 from pointchart.shapes.shape import Shape, grid_triangles
 
@@ -99,13 +100,7 @@ def bent_sheet(angle: float, *, nx: int = 41, ny: int = 31) -> Shape:
     >>> bool(np.allclose(np.hypot(half.points[:, 0], half.points[:, 2]), 10 / np.pi))
     True
     """
-    if not 0 < angle < 360:
-        raise InputError(f"a roll of {angle} degrees is flat or meets itself; take more than 0 and less than 360")
-    flat = grid(nx, ny)
-    radius = (nx - 1) / radians(angle)
-    turn = (flat.uv[:, 0] - (nx - 1) / 2) / radius
-    points = np.c_[radius * np.sin(turn), flat.uv[:, 1], radius * np.cos(turn)]
-    return Shape(points, flat.triangles, flat.uv)
+    return roll(grid(nx, ny), angle)
 
 
 def fold(gap: float, *, nx: int = 61, ny: int = 31) -> Shape:
@@ -168,11 +163,42 @@ def relief(n: int, *, height: float = 0.3, n_bumps: int = 8, seed: int = 0) -> S
     >>> float(abs(relief(100, height=0).points[:, 2]).max())
     0.0
     """
-    flat = disc(n, seed=seed)
-    rng = np.random.default_rng(seed)
-    center = polar(0.8 * np.sqrt(rng.random(n_bumps)), 2 * pi * rng.random(n_bumps))
-    width, rise = rng.uniform(0.15, 0.35, n_bumps), height * rng.uniform(-1, 1, n_bumps)
-    z = np.zeros(n)
-    for c, w, h in zip(center, width, rise, strict=True):
-        z += h * np.exp(-np.sum((flat.uv - c) ** 2, axis=1) / w**2)
-    return Shape(np.c_[flat.uv, z], flat.triangles, flat.uv)
+    return raise_bumps(disc(n, seed=seed), height=height, n_bumps=n_bumps, seed=seed)
+
+
+def dumbbell(n: int, *, neck: float = 8.0) -> Shape:
+    """Join two round lobes by a narrow neck, in the unit disc.
+
+    Parameters
+    ----------
+    n : int
+        Points in all, to within a few per cent; at least 100.
+    neck : float
+        Width of the neck in spacings, at least 2.
+
+    Returns
+    -------
+    Shape
+        Planar; the lobes touch the unit circle at the left and at the right.
+
+    Raises
+    ------
+    InputError
+        With fewer points, or a neck narrower than 2 spacings or as wide as the lobes.
+
+    Examples
+    --------
+    >>> flat = dumbbell(1000)
+    >>> bool(abs(flat.points[:, 0]).max() > 0.95), bool(abs(flat.points[abs(flat.points[:, 0]) < 0.1, 1]).max() < 0.2)
+    (True, True)
+    """
+    # The lobes have radius 0.4 and 87% of the points in the hexagonal packing of the plane.
+    spacing = sqrt(2 * pi * 0.4**2 / (n * sqrt(3) / 2))
+    if n < 100 or not 2.0 <= neck or neck * spacing > 0.6:
+        raise InputError(f"a neck of {neck} spacings does not fit a dumbbell of {n} points; take 2 to a few dozen")
+    share, turn = sunflower(round(pi / (sqrt(3) / 2 * spacing**2)))
+    uv = polar(np.sqrt(share), turn)
+    in_lobe = np.hypot(np.abs(uv[:, 0]) - 0.6, uv[:, 1]) <= 0.4
+    in_neck = (np.abs(uv[:, 0]) <= 0.6) & (np.abs(uv[:, 1]) <= neck * spacing / 2)
+    uv = uv[in_lobe | in_neck]
+    return Shape(np.c_[uv, np.zeros(len(uv))], ragged_delaunay(uv), uv)

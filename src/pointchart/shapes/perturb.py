@@ -1,4 +1,4 @@
-"""What a scanner does to a surface: noise, uneven density, no order."""
+"""What a scanner does to a surface: noise, uneven density, gaps, no order."""
 
 import numpy as np
 
@@ -98,3 +98,79 @@ def shuffle(shape: Shape, *, seed: int = 0) -> Shape:
     place = np.empty_like(order)
     place[order] = np.arange(len(order))
     return Shape(shape.points[order], place[shape.triangles], shape.uv[order])
+
+
+def grade(shape: Shape, *, ratio: float = 10.0) -> Shape:
+    """Make the density of a planar shape fall smoothly from one side to the other, by a conformal map.
+
+    The Moebius transformation (z + a) / (1 + a z) maps the unit disc onto itself, and triangles to nearly similar ones.
+
+    Parameters
+    ----------
+    shape : Shape
+        In the unit disc of the plane z = 0.
+    ratio : float
+        Largest density (points per area) over the least on the disc, at least 1.
+
+    Returns
+    -------
+    Shape
+        The same triangles and parameters; densest at the right.
+
+    Examples
+    --------
+    >>> from pointchart.shapes import disc
+    >>> right = grade(disc(1000), ratio=10).points[:, 0] > 0
+    >>> bool(right.sum() > 600)
+    True
+    """
+    # Lengths change by (1 + a) / (1 - a) and its inverse at the ends of the diameter.
+    end = ratio**0.25
+    a = (end - 1.0) / (end + 1.0)
+    z = shape.points[:, 0] + 1j * shape.points[:, 1]
+    moved = (z + a) / (1.0 + a * z)
+    return Shape(np.c_[moved.real, moved.imag, shape.points[:, 2]], shape.triangles, shape.uv)
+
+
+def pierce(shape: Shape, *, n_gaps: int = 3, radius_in_spacings: float = 4.0, seed: int = 0) -> Shape:
+    """Take out the points in a few balls inside the surface: the gaps of a scan.
+
+    Parameters
+    ----------
+    shape : Shape
+    n_gaps : int
+        At most; fewer where there is no room. Gaps keep two radii from each other and one from the boundary.
+    radius_in_spacings : float
+        As a multiple of the mean edge length at the middle of the gap.
+    seed : int
+        Of the places.
+
+    Returns
+    -------
+    Shape
+        Fewer points, in the same order, and a loop more for every gap.
+
+    Examples
+    --------
+    >>> from pointchart.shapes import disc
+    >>> len(pierce(disc(2000), n_gaps=3).loops)
+    4
+    """
+    points, triangles = shape.points, shape.triangles
+    ends = triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
+    length = np.linalg.norm(points[ends[:, 1]] - points[ends[:, 0]], axis=1)
+    spacing = np.bincount(ends.ravel(), np.repeat(length, 2)) / np.bincount(ends.ravel())
+    radius = radius_in_spacings * spacing
+    rim = np.concatenate(shape.loops) if shape.loops else np.empty(0, np.int64)
+    gone, middles = np.zeros(len(points), np.bool_), list[int]()
+    for i in np.random.default_rng(seed).permutation(len(points)).tolist():
+        apart = np.linalg.norm(points[[*rim.tolist(), *middles]] - points[i], axis=1)
+        room = np.r_[np.full(len(rim), 2.0 * radius[i]), 2.0 * (radius[i] + radius[middles])]
+        if len(middles) < n_gaps and (apart > room).all():
+            middles.append(i)
+            gone |= np.linalg.norm(points - points[i], axis=1) < radius[i]
+    kept = triangles[~gone[triangles].any(axis=1)]
+    used = np.zeros(len(points), np.bool_)
+    used[kept] = True
+    place = np.cumsum(used) - 1
+    return Shape(points[used], place[kept], shape.uv[used])

@@ -91,7 +91,8 @@ def laser_scan(
     points = surface(st[:, 0], st[:, 1])
     points += gap * noise * rng.normal(size=(len(points), 1)) * (np.array(view) / np.linalg.norm(view))
     uv = np.c_[np.interp(st[:, 0], s, along), np.interp(st[:, 1], t, across)]
-    return Shape(points, ragged_delaunay(uv), uv)
+    # Neighbours on the next line are as far as the anisotropy says.
+    return Shape(points, ragged_delaunay(uv, limit=max(3.0, 2.0 * anisotropy)), uv)
 
 
 def sculpture(n: int = 20_000) -> Shape:
