@@ -25,10 +25,11 @@ from PIL import Image
 
 from pointchart.boundary import chord_length_steps, on_circle, order_by_halves
 from pointchart.mesh import half_edges
-from pointchart.neighbors import Neighborhoods, ball, delaunay_star
+from pointchart.neighbors import Neighborhoods, ball
 from pointchart.parameterize import parameterize
 from pointchart.quality import area_vectors, edge_lengths
 from pointchart.shapes import Shape, add_noise, disc
+from pointchart.stars import delaunay_star
 from pointchart.swaps import swap_to_delaunay
 from pointchart.triangulate import triangulate
 from pointchart.typing import UV, Floats, Points, Triangles

@@ -22,7 +22,7 @@ from pointchart import (
 )
 from pointchart.boundary import agreed_triangles, anticlockwise, rims
 from pointchart.mesh import half_edges
-from pointchart.neighbors import break_ties
+from pointchart.stars import break_ties
 
 SMOOTH = {
     "disc": lambda: shapes.disc(800, seed=1),

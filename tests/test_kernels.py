@@ -9,8 +9,9 @@ from pointchart import _kernels
 from pointchart._kernels import half_edges as half_edge_kernels
 from pointchart._kernels import rims
 from pointchart.mesh import half_edges, one_rings
-from pointchart.neighbors import delaunay_star, nearest, normals
+from pointchart.neighbors import nearest
 from pointchart.shapes import disc, relief
+from pointchart.stars import delaunay_star, normals
 
 SHAPE = relief(60, seed=3)
 N = len(SHAPE.points)

@@ -6,8 +6,9 @@ from strategies import clouds
 from pointchart.errors import InputError
 from pointchart.links import FAR_TRUST, LONE_TRUST, distrust_far, is_near, link_stars
 from pointchart.mesh import one_rings
-from pointchart.neighbors import Neighborhoods, delaunay_star, nearest
+from pointchart.neighbors import Neighborhoods, nearest
 from pointchart.shapes import add_noise, disc, fold
+from pointchart.stars import delaunay_star
 
 
 def links_of(points, k=15):

@@ -5,8 +5,9 @@ from hypothesis import strategies as st
 from strategies import clouds, rotations, seeds
 
 from pointchart.errors import InputError
-from pointchart.neighbors import ball, break_ties, delaunay_star, from_pairs, nearest, normals, spacing
+from pointchart.neighbors import ball, from_pairs, nearest, spacing
 from pointchart.shapes import bent_sheet, disc, grid, hemisphere
+from pointchart.stars import break_ties, delaunay_star, normals
 
 
 def rows_of(neighborhoods):

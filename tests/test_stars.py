@@ -5,8 +5,9 @@ from hypothesis import strategies as st
 from scipy.spatial import Delaunay
 from strategies import clouds, cocircular_sets, flat, integer_sets, planar_discs, rotations, seeds
 
-from pointchart.neighbors import STEEPEST, Neighborhoods, ball, delaunay_star, nearest, normals
+from pointchart.neighbors import Neighborhoods, ball, nearest
 from pointchart.shapes import add_noise, fold, grid, relief
+from pointchart.stars import STEEPEST, delaunay_star, normals
 
 
 def star_pairs(star):

@@ -9,9 +9,10 @@ from pointchart._exact import orientation_signs
 from pointchart.boundary.layout import chord_length_steps, on_circle
 from pointchart.certify import certify
 from pointchart.mesh import boundary_loops, half_edges, one_rings
-from pointchart.neighbors import delaunay_star, nearest
+from pointchart.neighbors import nearest
 from pointchart.parameterize import parameterize
 from pointchart.shapes import tube
+from pointchart.stars import delaunay_star
 from pointchart.swaps import swap_to_delaunay
 from pointchart.triangulate import triangulate
 from pointchart.weights import mean_value, reciprocal_distance, shape_preserving

@@ -28,12 +28,13 @@ from .errors import FormatError, InputError, PointchartError, SolveError
 from .io import Scan, read_loop, read_scan, write_loop, write_mesh, write_uv
 from .links import Links, distrust_far, link_stars, trusted
 from .mesh import one_rings
-from .neighbors import Neighborhoods, ball, delaunay_star, nearest, nearest_star, normals, spacing
+from .neighbors import Neighborhoods, ball, nearest, spacing
 from .parameterize import Parameterization, parameterize
 from .pipeline import Reconstruction, parameterize_scan, reconstruct, survey_scan
 from .prepare import Cloud, prepare
 from .quality import l2_stretch, least_distance, radius_ratios, stretches
 from .solve import Solution, bicgstab, cholesky, conjugate_gradient, direct, multigrid, solve_fixed
+from .stars import delaunay_star, nearest_star, normals
 from .swaps import Swapped, keep_edges, swap_to_delaunay
 from .triangulate import triangulate
 from .weights import mean_value, reciprocal_distance, shape_preserving, uniform

@@ -50,7 +50,8 @@ def link_stars(star: Neighborhoods) -> Links:
 
     Examples
     --------
-    >>> from pointchart.neighbors import delaunay_star, nearest
+    >>> from pointchart.neighbors import nearest
+    >>> from pointchart.stars import delaunay_star
     >>> plus = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0]]
     >>> links = link_stars(delaunay_star(plus, nearest(plus, 4)))
     >>> links.neighborhoods.sizes, links.trust.min()

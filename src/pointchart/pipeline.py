@@ -23,12 +23,13 @@ from .chart import ChartRule, uv_on_mesh
 from .clock import StageClock
 from .errors import SolveError, points_called
 from .links import link_stars
-from .neighbors import Neighborhoods, nearest, nearest_star
+from .neighbors import Neighborhoods, nearest
 from .neighbors import spacing as local_spacing
 from .parameterize import Parameterization, parameterize
 from .prepare import Cloud, prepare
 from .refine import Meshed, SwapRule, mesh_once, mesh_repeatedly
 from .solve import Solver, default_solver
+from .stars import nearest_star
 from .swaps import swap_off_sides, swap_to_delaunay
 from .typing import UV, Floats, Indices, Loop, Points, Triangles
 from .weights import WeightScheme, mean_value

@@ -113,7 +113,8 @@ def mean_value(points: Points, neighborhoods: Neighborhoods) -> Weights:
 
     Examples
     --------
-    >>> from pointchart.neighbors import delaunay_star, nearest
+    >>> from pointchart.neighbors import nearest
+    >>> from pointchart.stars import delaunay_star
     >>> import numpy as np
     >>> plus = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0]])
     >>> mean_value(plus, delaunay_star(plus, nearest(plus, 4)))[:4].round(12)
@@ -168,7 +169,8 @@ def shape_preserving(points: Points, neighborhoods: Neighborhoods) -> Weights:
 
     Examples
     --------
-    >>> from pointchart.neighbors import delaunay_star, nearest
+    >>> from pointchart.neighbors import nearest
+    >>> from pointchart.stars import delaunay_star
     >>> import numpy as np
     >>> kite = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [-3, 0, 0], [0, -1, 0]])
     >>> shape_preserving(kite, delaunay_star(kite, nearest(kite, 4)))[:4].round(12).tolist()

@@ -7,7 +7,8 @@ from .._check import check_points
 from .._kernels.rims import largest_gaps
 from .._parallel import over_ranges
 from ..errors import InputError
-from ..neighbors import Neighborhoods, normals
+from ..neighbors import Neighborhoods
+from ..stars import normals
 from ..typing import Floats, Mask
 
 BOUNDARY_GAP = np.pi / 2.0
@@ -68,7 +69,8 @@ def hull_test(star: Neighborhoods) -> Mask:
 
     Examples
     --------
-    >>> from pointchart.neighbors import delaunay_star, nearest
+    >>> from pointchart.neighbors import nearest
+    >>> from pointchart.stars import delaunay_star
     >>> plus = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0]]
     >>> hull_test(delaunay_star(plus, nearest(plus, 4))).tolist()
     [False, True, True, True, True]

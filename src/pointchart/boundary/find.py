@@ -8,8 +8,9 @@ from numpy.typing import ArrayLike
 
 from .._check import check_points
 from ..errors import InputError
-from ..neighbors import Neighborhoods, break_ties, nearest, nearest_star
+from ..neighbors import Neighborhoods, nearest
 from ..neighbors import spacing as local_spacing
+from ..stars import break_ties, nearest_star
 from ..typing import Floats, Loop, Mask, Points
 from .detect import BOUNDARY_GAP, angular_gaps
 from .orient import anticlockwise

@@ -6,7 +6,7 @@ from functools import partial
 
 import typer
 
-from .. import boundary, chart, neighbors, pipeline, swaps, weights
+from .. import boundary, chart, neighbors, pipeline, stars, swaps, weights
 from ..chart import ChartRule
 from ..neighbors import Neighborhoods
 from ..pipeline import Connect, LayoutRule
@@ -99,7 +99,7 @@ def connect_rule(kind: Neighbors | None, k: int | None, radius: float | None) ->
         if radius is not None:
             raise typer.BadParameter("--neighbors nearest takes -k and no --radius; for a ball say --neighbors ball")
         return around
-    return lambda points: neighbors.delaunay_star(points, around(points))
+    return lambda points: stars.delaunay_star(points, around(points))
 
 
 def weights_rule(weighting: Weighting | None, kind: Neighbors | None) -> WeightScheme | None:

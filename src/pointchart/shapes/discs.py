@@ -194,7 +194,7 @@ def dumbbell(n: int, *, neck: float = 8.0) -> Shape:
     """
     # The lobes have radius 0.4 and 87% of the points in the hexagonal packing of the plane.
     spacing = sqrt(2 * pi * 0.4**2 / (n * sqrt(3) / 2))
-    if n < 100 or not 2.0 <= neck or neck * spacing > 0.6:
+    if n < 100 or not neck >= 2.0 or neck * spacing > 0.6:
         raise InputError(f"a neck of {neck} spacings does not fit a dumbbell of {n} points; take 2 to a few dozen")
     share, turn = sunflower(round(pi / (sqrt(3) / 2 * spacing**2)))
     uv = polar(np.sqrt(share), turn)
