@@ -8,10 +8,8 @@ from numpy.typing import ArrayLike
 
 from ._check import check_loop, check_points
 from .boundary import (
-    BOUNDARY_GAP,
-    GAP_NEIGHBORS,
     Candidate,
-    angular_gaps,
+    FoundBoundary,
     anticlockwise,
     check_order,
     chord_length_on_circle,
@@ -24,17 +22,16 @@ from .clock import StageClock
 from .errors import SolveError, points_called
 from .links import link_stars
 from .neighbors import Neighborhoods, nearest
-from .neighbors import spacing as local_spacing
 from .parameterize import Parameterization, parameterize
 from .prepare import Cloud, prepare
 from .refine import Meshed, SwapRule, mesh_once, mesh_repeatedly
 from .solve import Solver, default_solver
 from .stars import nearest_star
 from .swaps import swap_off_sides, swap_to_delaunay
-from .typing import UV, Floats, Indices, Loop, Points, Triangles
+from .typing import UV, Indices, Loop, Points, Triangles
+from .vicinity import NEAREST, Vicinity, explore
 from .weights import WeightScheme, mean_value
 
-NEAREST = 20
 SECOND_BOUNDARY = 0.25  # a gap with this share of the boundary's length and points may as well be the boundary
 
 Connect = Callable[[Points], Neighborhoods]
@@ -98,22 +95,19 @@ class Survey:
     scan : (N, 3) float64
         The points as given.
     cloud : Cloud
-    star : Neighborhoods
-        Delaunay stars of the cloud's points.
-    spacing : (n,) float64
-        Local spacing, in the unit of the cloud.
+    vicinity : Vicinity
+        Of the cloud's points.
     loop : (b,) int64
         Boundary points of the cloud, anticlockwise.
-    candidates : list of Candidate
-        Loops that the boundary was chosen from; empty if it was given.
+    found : FoundBoundary or None
+        How the boundary was found; None if it was given.
     """
 
     scan: Points
     cloud: Cloud
-    star: Neighborhoods
-    spacing: Floats
+    vicinity: Vicinity
     loop: Loop
-    candidates: list[Candidate]
+    found: FoundBoundary | None
 
 
 def reconstruct(
@@ -184,15 +178,19 @@ def reconstruct(
     boundary_uv = layout(survey.scan, cloud.rows[rim])
     with points_called(cloud.rows):
         meshed = _mesh(survey, connect, weights, swap, solver, clock)
-        bridges = find_bridges(cloud.points, meshed.swapped.triangles, survey.spacing)
+        bridges = find_bridges(cloud.points, meshed.swapped.triangles, survey.vicinity.spacing)
         _check_bridges(survey, bridges)
         with clock("parameters"):
             meshed = replace(meshed, swapped=swap_off_sides(meshed.swapped, rim, boundary_uv))
             mapped = chart(cloud.points, rim, boundary_uv, meshed, solver)
         with clock("certify"):
-            proof = certify(cloud.points, meshed.swapped.triangles, uv=mapped.uv, loop=rim, spacing=survey.spacing)
+            proof = certify(
+                cloud.points, meshed.swapped.triangles, uv=mapped.uv, loop=rim, spacing=survey.vicinity.spacing
+            )
             _check_proof(proof, chart)
-    return _in_rows(cloud, rim, mapped, proof, Evidence(survey.candidates, bridges, meshed, mapped))
+    return _in_rows(
+        cloud, rim, mapped, proof, Evidence(survey.found.candidates if survey.found else [], bridges, meshed, mapped)
+    )
 
 
 def survey_scan(points: ArrayLike, loop: ArrayLike | None = None, *, clock: StageClock | None = None) -> Survey:
@@ -230,18 +228,16 @@ def survey_scan(points: ArrayLike, loop: ArrayLike | None = None, *, clock: Stag
         given = None if loop is None else check_loop(loop, len(scan))
     with points_called(cloud.rows):
         with clock("neighbours"):
-            around = nearest(cloud.points, NEAREST)
-            spacing = local_spacing(cloud.points, around=around)
-            star = nearest_star(cloud.points, around)
+            vicinity = explore(cloud.points)
         with clock("boundary"):
             if given is None:
-                found = find_boundary(cloud.points, around=around, spacing=spacing)
-                rim, candidates = found.loop, found.candidates
+                found = find_boundary(cloud.points, vicinity=vicinity)
+                rim = found.loop
             else:
-                rim, candidates = check_loop(cloud.places[given], len(cloud.points)), []
+                found, rim = None, check_loop(cloud.places[given], len(cloud.points))
                 check_order(cloud.points, rim)
                 rim = anticlockwise(cloud.points, rim)
-    return Survey(scan, cloud, star, spacing, rim, candidates)
+    return Survey(scan, cloud, vicinity, rim, found)
 
 
 def parameterize_scan(
@@ -300,7 +296,7 @@ def _mesh(
     circle = chord_length_on_circle(points, rim)
     if connect is None and weights is None:
         with clock("neighbours"):
-            links = link_stars(survey.star)
+            links = link_stars(survey.vicinity.star)
         return mesh_repeatedly(points, rim, circle, links, swap=swap, solver=solver, clock=clock)
     with clock("neighbours"):
         neighborhoods = (connect or _default_stars)(points * survey.cloud.scale)
@@ -324,7 +320,7 @@ def _check_bridges(survey: Survey, bridges: list[Bridge]) -> None:
     ]
     if not large:
         return
-    is_boundary = angular_gaps(points, nearest(points, GAP_NEIGHBORS)) > BOUNDARY_GAP
+    is_boundary = survey.found.scores.is_boundary if survey.found else np.ones(len(points), bool)
     for bridge in large:
         if is_boundary[bridge.points].mean() < 0.5:
             raise SolveError(
@@ -333,7 +329,7 @@ def _check_bridges(survey: Survey, bridges: list[Bridge]) -> None:
                 "that its map collapses; cut it there",
                 there=bridge.points[0],
             )
-        if survey.candidates:
+        if survey.found:
             raise SolveError(
                 f"the surface has a second boundary, so it is no disc: besides the loop of {len(loop)} points that "
                 f"passes point {{here}} there is a gap of {len(bridge.points)} points, "

@@ -2,7 +2,6 @@
 
 import math
 
-import numpy as np
 from numba import njit
 
 
@@ -49,20 +48,30 @@ def tangent_frame(nx, ny, nz):
 
 
 @njit(cache=True, nogil=True)
-def fit_normals(points, indptr, indices, first, last, normals):
-    """Write the normal of the least-squares plane of each point and its neighbours into `normals[first:last]`."""
+def fit_planes(points, indptr, indices, fading, first, last, normals, offsets):
+    """Write the least-squares planes of points first..last and their neighbours.
+
+    A neighbour at distance d has the weight (1 - fading d^2 / R^2)^2, where R is that of the farthest: without fading
+    all count alike. The plane of point i has the normal `normals[i]` and passes `offsets[i]` above the point.
+    """
     for i in range(first, last):
-        n = indptr[i + 1] - indptr[i] + 1
-        mx = my = mz = xx = xy = xz = yy = yz = zz = 0.0
-        for e in range(indptr[i], indptr[i + 1]):
-            j = indices[e]
+        farthest = 0.0
+        for j in indices[indptr[i] : indptr[i + 1]]:
             x, y, z = points[j, 0] - points[i, 0], points[j, 1] - points[i, 1], points[j, 2] - points[i, 2]
-            mx, my, mz = mx + x, my + y, mz + z
-            xx, xy, xz = xx + x * x, xy + x * y, xz + x * z
-            yy, yz, zz = yy + y * y, yz + y * z, zz + z * z
+            farthest = max(farthest, x * x + y * y + z * z)
+        rate = fading / farthest if farthest > 0.0 else 0.0
+        n, mx, my, mz, xx, xy, xz, yy, yz, zz = 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+        for j in indices[indptr[i] : indptr[i + 1]]:
+            x, y, z = points[j, 0] - points[i, 0], points[j, 1] - points[i, 1], points[j, 2] - points[i, 2]
+            w = (1.0 - rate * (x * x + y * y + z * z)) ** 2
+            n, mx, my, mz = n + w, mx + w * x, my + w * y, mz + w * z
+            xx, xy, xz = xx + w * x * x, xy + w * x * y, xz + w * x * z
+            yy, yz, zz = yy + w * y * y, yz + w * y * z, zz + w * z * z
         xx, xy, xz = xx - mx * mx / n, xy - mx * my / n, xz - mx * mz / n
         yy, yz, zz = yy - my * my / n, yz - my * mz / n, zz - mz * mz / n
         scale = xx + yy + zz
         if scale > 0.0:
             xx, xy, xz, yy, yz, zz = xx / scale, xy / scale, xz / scale, yy / scale, yz / scale, zz / scale
-        normals[i] = np.array(smallest_eigenvector(xx, xy, xz, yy, yz, zz))
+        nx, ny, nz = smallest_eigenvector(xx, xy, xz, yy, yz, zz)
+        normals[i, 0], normals[i, 1], normals[i, 2] = nx, ny, nz
+        offsets[i] = (mx * nx + my * ny + mz * nz) / n

@@ -1,37 +1,9 @@
 """The triangles on which neighbouring stars agree, made a surface, and the rims of that surface."""
 
-import math
-
 import numpy as np
 from numba import njit
 
 from .links import are_adjacent
-from .planes import tangent_frame
-
-
-@njit(cache=True, nogil=True)
-def largest_gaps(points, normals, indptr, indices, first, last, gap):
-    """Write the largest angle between consecutive neighbours around points first..last, in their tangent planes."""
-    most = 1
-    for i in range(first, last):
-        most = max(most, indptr[i + 1] - indptr[i])
-    angles = np.empty(most)
-    for i in range(first, last):
-        ux, uy, uz, vx, vy, vz = tangent_frame(normals[i, 0], normals[i, 1], normals[i, 2])
-        n = 0
-        for e in range(indptr[i], indptr[i + 1]):
-            j = indices[e]
-            x, y, z = points[j, 0] - points[i, 0], points[j, 1] - points[i, 1], points[j, 2] - points[i, 2]
-            angle = math.atan2(x * vx + y * vy + z * vz, x * ux + y * uy + z * uz)
-            k = n
-            while k > 0 and angles[k - 1] > angle:
-                angles[k] = angles[k - 1]
-                k -= 1
-            angles[k] = angle
-            n += 1
-        gap[i] = 2.0 * math.pi if n == 0 else angles[0] + 2.0 * math.pi - angles[n - 1]
-        for k in range(n - 1):
-            gap[i] = max(gap[i], angles[k + 1] - angles[k])
 
 
 @njit(cache=True, nogil=True)

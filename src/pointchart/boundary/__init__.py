@@ -1,7 +1,7 @@
 """The boundary of a patch: detect its points, put them in order, lay them out on a convex domain."""
 
-from .detect import BOUNDARY_GAP, angular_gaps, hull_test
-from .find import GAP_NEIGHBORS, Candidate, FoundBoundary, find_boundary
+from .detect import BoundaryScores, angular_gaps, boundary_scores, hull_test
+from .find import Candidate, FoundBoundary, find_boundary
 from .layout import (
     centripetal_steps,
     chord_length_on_circle,
@@ -21,13 +21,13 @@ from .rims import agreed_triangles, rims
 from .univariate import order_by_halves
 
 __all__ = [
-    "BOUNDARY_GAP",
-    "GAP_NEIGHBORS",
+    "BoundaryScores",
     "Candidate",
     "FoundBoundary",
     "agreed_triangles",
     "angular_gaps",
     "anticlockwise",
+    "boundary_scores",
     "centripetal_steps",
     "check_order",
     "chord_length_on_circle",

@@ -8,15 +8,13 @@ from numpy.typing import ArrayLike
 
 from .._check import check_points
 from ..errors import InputError
-from ..neighbors import Neighborhoods, nearest
-from ..neighbors import spacing as local_spacing
-from ..stars import break_ties, nearest_star
-from ..typing import Floats, Loop, Mask, Points
-from .detect import BOUNDARY_GAP, angular_gaps
+from ..neighbors import Neighborhoods
+from ..typing import Loop, Mask, Points
+from ..vicinity import Vicinity, explore
+from .detect import BoundaryScores, boundary_scores
 from .orient import anticlockwise
 from .rims import agreed_triangles, rims
 
-GAP_NEIGHBORS = 30
 LEAST_SHARE = 0.5
 SHORTEST = 12.0  # spacings: a shorter loop is a gap that a neighbourhood spans
 
@@ -31,7 +29,7 @@ class Candidate:
     length : float
         In the unit of the points.
     share : float
-        Share of its length between points that an angular gap marks as boundary points, in [0, 1].
+        Share of its length between points whose scores speak for a boundary, in [0, 1]: how far it can be trusted.
     """
 
     loop: Loop
@@ -48,33 +46,28 @@ class FoundBoundary:
     loop : (b,) int64
         Boundary points in order, anticlockwise.
     candidates : list of Candidate
-        All loops that angular gaps support, the best first: ``candidates[0].loop`` is `loop`.
-    gaps : (n,) float64
-        Largest angular gap at each point, in radians.
+        All loops that the scores support, the best first: ``candidates[0].loop`` is `loop`.
+    scores : BoundaryScores
     """
 
     loop: Loop
     candidates: list[Candidate]
-    gaps: Floats
+    scores: BoundaryScores
 
 
-def find_boundary(
-    points: ArrayLike, *, around: Neighborhoods | None = None, spacing: Floats | None = None
-) -> FoundBoundary:
+def find_boundary(points: ArrayLike, *, vicinity: Vicinity | None = None) -> FoundBoundary:
     """Find the boundary loop of a scan.
 
     Triangles on which neighbouring stars agree form a surface, whose rims are loops in order: the boundary, gaps of the
-    scan, and places where stars disagree. The boundary is the loop with the greatest length between points that have an
-    angular gap of more than a right angle among their 30 nearest.
+    scan, and places where stars disagree. The boundary is the loop with the greatest length between points whose
+    scores speak for a boundary.
 
     Parameters
     ----------
     points : (n, 3) array
         Distinct points.
-    around : Neighborhoods, optional
-        About 20 nearest points of each, if they have been found already.
-    spacing : (n,) array, optional
-        Local spacing; measured, if not given.
+    vicinity : Vicinity, optional
+        If it has been explored already.
 
     Returns
     -------
@@ -92,15 +85,12 @@ def find_boundary(
     38
     """
     cloud = check_points(points)
-    candidates = around or nearest(cloud)
-    step = local_spacing(cloud, around=candidates) if spacing is None else spacing
-    check_one_piece(candidates)
-    star = nearest_star(break_ties(cloud, step), candidates)
-    gaps = angular_gaps(cloud, nearest(cloud, GAP_NEIGHBORS))
-    found = [
-        measure(cloud, loop, gaps > BOUNDARY_GAP) for loop in rims(agreed_triangles(cloud, star, step), len(cloud))
-    ]
-    scale = float(np.median(step))
+    near = explore(cloud) if vicinity is None else vicinity
+    check_one_piece(near.around)
+    agreed = agreed_triangles(near.smoothed, near.star, near.spacing)
+    scores = boundary_scores(near.smoothed, near.around, near.star, agreed, near.spacing)
+    found = [measure(near.smoothed, loop, scores.is_boundary) for loop in rims(agreed, len(cloud))]
+    scale = float(np.median(near.spacing))
     good = [c for c in found if c.share >= LEAST_SHARE and c.length >= SHORTEST * scale]
     if not good:
         longest = max((c.length for c in found if c.share >= LEAST_SHARE), default=0.0)
@@ -111,7 +101,7 @@ def find_boundary(
         )
     good.sort(key=lambda c: -c.share * c.length)
     good = [replace(candidate, loop=anticlockwise(cloud, candidate.loop)) for candidate in good]
-    return FoundBoundary(good[0].loop, good, gaps)
+    return FoundBoundary(good[0].loop, good, scores)
 
 
 def check_one_piece(around: Neighborhoods) -> None:

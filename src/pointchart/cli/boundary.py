@@ -26,7 +26,7 @@ def boundary(
         survey = survey_scan(read.points, clock=clock)
     write_loop(out, survey.cloud.rows[survey.loop])
     if not quiet:
-        chosen, others = survey.candidates[0], survey.candidates[1:]
+        chosen, *others = survey.found.candidates
         lines = [
             f"{out}: a loop of {len(chosen.loop)} points, {chosen.length * survey.cloud.scale:.4g} long, "
             f"{chosen.share:.0%} of it beside an angular gap"

@@ -1,0 +1,61 @@
+"""What is around each point: the nearest points, how far apart they are, and the star on the smoothed surface."""
+
+from dataclasses import dataclass
+
+from numpy.typing import ArrayLike
+
+from ._check import check_points
+from .neighbors import Neighborhoods, nearest
+from .neighbors import spacing as local_spacing
+from .stars import break_ties, nearest_star, smooth
+from .typing import Floats, Points
+
+NEAREST = 20
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Vicinity:
+    """The surroundings of every point.
+
+    Attributes
+    ----------
+    around : Neighborhoods
+        The 20 nearest points.
+    spacing : (n,) float64
+        Local spacing, in the unit of the points.
+    smoothed : (n, 3) float64
+        The points with less noise across the surface.
+    star : Neighborhoods
+        Delaunay stars of the smoothed points, in general position: neighbouring stars can agree on grids too.
+    """
+
+    around: Neighborhoods
+    spacing: Floats
+    smoothed: Points
+    star: Neighborhoods
+
+
+def explore(points: ArrayLike) -> Vicinity:
+    """Find out what is around each point: one search that the boundary and the links share.
+
+    Parameters
+    ----------
+    points : (n, 3) array
+        Distinct points.
+
+    Returns
+    -------
+    Vicinity
+
+    Examples
+    --------
+    >>> from pointchart import shapes
+    >>> vicinity = explore(shapes.grid(12, 9).points)
+    >>> int(vicinity.around.sizes.min()), float(vicinity.spacing.min())
+    (20, 1.0)
+    """
+    cloud = check_points(points)
+    around = nearest(cloud, NEAREST)
+    spacing = local_spacing(cloud, around=around)
+    smoothed = smooth(cloud, around)
+    return Vicinity(around, spacing, smoothed, nearest_star(break_ties(smoothed, spacing), around))
