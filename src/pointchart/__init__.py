@@ -4,10 +4,12 @@ The names below are the public interface, in the order of the pipeline.
 """
 
 from .boundary import (
+    BoundaryScores,
     Candidate,
     FoundBoundary,
     angular_gaps,
     anticlockwise,
+    boundary_scores,
     centripetal_steps,
     chord_length_on_circle,
     chord_length_steps,
@@ -25,21 +27,25 @@ from .certify import Certificate, certify
 from .chart import uv_of_points, uv_on_mesh
 from .clock import StageClock
 from .errors import FormatError, InputError, PointchartError, SolveError
+from .gaps import bridge_gaps, leave_gaps_open, refuse_second_boundary
 from .io import Scan, read_loop, read_scan, write_loop, write_mesh, write_uv
 from .links import Links, distrust_far, link_stars, trusted
 from .mesh import one_rings
 from .neighbors import Neighborhoods, ball, nearest, spacing
 from .parameterize import Parameterization, parameterize
-from .pipeline import Reconstruction, parameterize_scan, reconstruct, survey_scan
+from .pipeline import Reconstruction, parameterize_scan, reconstruct
 from .prepare import Cloud, prepare
 from .quality import l2_stretch, least_distance, radius_ratios, stretches
 from .solve import Solution, bicgstab, cholesky, conjugate_gradient, direct, multigrid, solve_fixed
-from .stars import delaunay_star, nearest_star, normals
+from .stars import delaunay_star, nearest_star, normals, smooth
+from .survey import Survey, survey_scan
 from .swaps import Swapped, keep_edges, swap_to_delaunay
 from .triangulate import triangulate
+from .vicinity import Vicinity, explore
 from .weights import mean_value, reciprocal_distance, shape_preserving, uniform
 
 __all__ = [
+    "BoundaryScores",
     "Candidate",
     "Certificate",
     "Cloud",
@@ -55,11 +61,15 @@ __all__ = [
     "Solution",
     "SolveError",
     "StageClock",
+    "Survey",
     "Swapped",
+    "Vicinity",
     "angular_gaps",
     "anticlockwise",
     "ball",
     "bicgstab",
+    "boundary_scores",
+    "bridge_gaps",
     "centripetal_steps",
     "certify",
     "cholesky",
@@ -69,11 +79,13 @@ __all__ = [
     "delaunay_star",
     "direct",
     "distrust_far",
+    "explore",
     "find_boundary",
     "hull_test",
     "keep_edges",
     "l2_stretch",
     "least_distance",
+    "leave_gaps_open",
     "link_stars",
     "mean_value",
     "multigrid",
@@ -94,8 +106,10 @@ __all__ = [
     "read_scan",
     "reciprocal_distance",
     "reconstruct",
+    "refuse_second_boundary",
     "shape_preserving",
     "sharpest_places",
+    "smooth",
     "solve_fixed",
     "spacing",
     "stretches",

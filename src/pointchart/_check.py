@@ -4,7 +4,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .errors import InputError, name_some
-from .typing import UV, Indices, Loop, Points, Triangles
+from .typing import UV, Floats, Indices, Loop, Points, Triangles
 
 SAMPLE = 64  # points looked at first: if they span a plane, so do all
 
@@ -82,6 +82,20 @@ def check_loop(loop: ArrayLike, n_points: int) -> Loop:
             "boundary points {repeated} are named more than once, but a loop passes each once; drop the repetitions",
             repeated=repeated,
         )
+    return array
+
+
+def check_place(place: ArrayLike) -> Floats:
+    """Return a place in space as (3,) float64, or say what is wrong with it.
+
+    Raises
+    ------
+    InputError
+        On a wrong shape, NaN or infinity.
+    """
+    array = np.asarray(place, dtype=np.float64)
+    if array.shape != (3,) or not np.isfinite(array).all():
+        raise InputError(f"the place has shape {array.shape}; three finite numbers x, y, z are needed")
     return array
 
 

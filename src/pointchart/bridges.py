@@ -1,12 +1,14 @@
 """Where a mesh bridges gaps: triangles much longer than the points are apart."""
 
+from collections import deque
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
 import numpy as np
 import scipy.sparse as sp
 
 from .mesh import half_edges
-from .typing import Floats, Indices, Points, Triangles
+from .typing import Floats, Indices, Mask, Points, Triangles
 
 LONG_EDGE = 4.0  # local spacings
 
@@ -23,25 +25,53 @@ class Bridge:
         Their corners.
     rim_length : float
         Length of its rim, in the unit of the points.
+    rim_in_spacings : float
+        The same, in spacings of its corners.
+    share : float
+        Share of its corners that score as boundary points, in [0, 1].
     """
 
     triangles: Indices
     points: Indices
     rim_length: float
+    rim_in_spacings: float
+    share: float
+
+    @property
+    def is_gap(self) -> bool:
+        """Whether it bridges a gap of the scan: the scan ends along it. Otherwise the mesh is in doubt there."""
+        return self.share >= 0.5
 
 
-def find_bridges(points: Points, triangles: Triangles, spacing: Floats) -> list[Bridge]:
+def find_bridges(
+    points: Points, triangles: Triangles, spacing: Floats, is_boundary: Callable[[], Mask]
+) -> list[Bridge]:
     """Find the patches of a mesh that bridge gaps between the points, the longest rim first.
 
-    A gap of the scan is bridged by a few long triangles. A bridge with a rim comparable to the boundary means another
-    boundary, so that the surface is no disc.
+    A gap of the scan is bridged by a few long triangles. Bridges where the scan has no gap mean that the points do not
+    lie on the disc that they were made into, or that the mesh is wrong there.
+
+    Parameters
+    ----------
+    points : (n, 3) array
+    triangles : (m, 3) int array
+    spacing : (n,) array
+        Local spacing.
+    is_boundary : callable
+        Gives (n,) bool, which points score as boundary points; asked only if there is a bridge.
+
+    Returns
+    -------
+    list of Bridge
 
     Examples
     --------
     >>> square = np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]])
     >>> faces = np.array([[0, 1, 2], [0, 2, 3]])
-    >>> find_bridges(square, faces, np.ones(4)), find_bridges(square, faces, np.full(4, 0.2))[0].rim_length
-    ([], 4.0)
+    >>> find_bridges(square, faces, np.ones(4), lambda: np.ones(4, bool))
+    []
+    >>> find_bridges(square, faces, np.full(4, 0.2), lambda: np.ones(4, bool))[0].rim_in_spacings
+    20.0
     """
     edges = half_edges(triangles, len(points))
     lengths = np.linalg.norm(points[edges.targets] - points[edges.origins], axis=1)
@@ -57,8 +87,57 @@ def find_bridges(points: Points, triangles: Triangles, spacing: Floats) -> list[
     bridges = []
     # Triangles that bridge nothing are components of their own, and left out.
     found = np.flatnonzero(bridging)
+    if len(found) == 0:
+        return []
+    scores = is_boundary()
     by_label = found[np.argsort(labels[found], kind="stable")]
-    for members in np.split(by_label, np.flatnonzero(np.diff(labels[by_label])) + 1) if len(found) else []:
-        label = labels[members[0]]
-        bridges.append(Bridge(members, np.unique(triangles[members]), float(rim_lengths[label])))
+    for members in np.split(by_label, np.flatnonzero(np.diff(labels[by_label])) + 1):
+        corners, length = np.unique(triangles[members]), float(rim_lengths[labels[members[0]]])
+        in_spacings, share = length / float(np.median(spacing[corners])), float(scores[corners].mean())
+        bridges.append(Bridge(members, corners, length, in_spacings, share))
     return sorted(bridges, key=lambda bridge: -bridge.rim_length)
+
+
+def open_gaps(triangles: Triangles, gaps: Iterable[Bridge], n_points: int) -> tuple[Triangles, int]:
+    """Take the bridges over gaps of the scan out of a mesh, leaving a hole for each.
+
+    No point is lost and no hole touches another rim: triangles that this asks for stay.
+
+    Parameters
+    ----------
+    triangles : (m, 3) int array
+        A disc.
+    gaps : iterable of Bridge
+    n_points : int
+
+    Returns
+    -------
+    triangles : (k, 3) int64 array
+    n_holes : int
+        Fewer than the gaps, where one lies along the boundary.
+
+    Examples
+    --------
+    >>> ring = np.array([[0, 1, 4], [0, 4, 3], [1, 2, 5], [1, 5, 4], [2, 0, 3], [2, 3, 5], [3, 4, 5]])
+    >>> over = Bridge(np.array([6]), np.array([3, 4, 5]), 3.0, 3.0, 1.0)
+    >>> open_gaps(ring, [over], 6)[1]
+    1
+    """
+    edges, removed = half_edges(triangles, n_points), np.zeros(len(triangles), np.bool_)
+    on_rim, in_gap, n_holes = np.zeros(n_points, np.bool_), np.zeros(len(triangles), np.bool_), 0
+    on_rim[edges.origins[edges.twins < 0]] = True
+    for gap in gaps:
+        inner = gap.triangles[~on_rim[triangles[gap.triangles]].any(axis=1)]
+        if len(inner) == 0:
+            continue
+        first, in_gap[gap.triangles], n_holes = int(inner[0]), True, n_holes + 1
+        removed[first], on_rim[triangles[first]] = True, True
+        queue = deque(edges.twins[3 * first : 3 * first + 3].tolist())
+        while queue:
+            half_edge = queue.popleft()
+            triangle, side = divmod(half_edge, 3)
+            opposite = triangles[triangle, (side + 2) % 3]
+            if in_gap[triangle] and not removed[triangle] and not on_rim[opposite]:
+                removed[triangle], on_rim[opposite] = True, True
+                queue.extend(edges.twins[[3 * triangle + (side + 1) % 3, 3 * triangle + (side + 2) % 3]].tolist())
+    return triangles[~removed], n_holes

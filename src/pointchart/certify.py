@@ -34,21 +34,24 @@ class Certificate:
     parts : int
         Parts that no edge joins.
     euler : int
-        Euler characteristic: points in use - edges + triangles; 1 for a disc.
+        Euler characteristic: points in use - edges + triangles; 1 for a disc, 1 less for every hole.
     boundary_loops : int
     boundary_as_given : bool or None
-        Whether the boundary is the loop that was asked for, None if none was.
+        Whether the loop that was asked for is a boundary, None if none was.
     coinciding_uv : int or None
         Points that share their parameters with others, None without uv.
     flat_or_folded_uv : int or None
         Triangles whose area in the plane is not positive, by exact arithmetic.
     simple_uv_boundary : bool or None
-        Whether the boundary is a simple polygon in the plane, by exact arithmetic: without it, positive triangles might
-        overlap. None without uv or a single boundary.
+        Whether all boundary loops are simple polygons in the plane, one of them anticlockwise and those of holes
+        clockwise, by exact arithmetic: without it, positive triangles might overlap. None without uv, or unless there
+        are as many loops as there should be.
     longest_edge_over_spacing : float
         Largest ratio of an edge's length to the spacing of the points at its ends: a bridge over a gap shows here.
     folds : int
         Edges at which the surface turns back by more than 150 degrees.
+    holes : int
+        How many holes the disc was to have.
     """
 
     n_points: int
@@ -65,32 +68,40 @@ class Certificate:
     simple_uv_boundary: bool | None
     longest_edge_over_spacing: float
     folds: int
+    holes: int
 
     @property
     def is_disc(self) -> bool:
-        """Whether the mesh is a disc on all points, with the boundary asked for."""
+        """Whether the mesh is a disc without holes on all points, with the boundary asked for."""
+        return self.is_as_asked and self.holes == 0
+
+    @property
+    def is_as_asked(self) -> bool:
+        """Whether the mesh is a disc with the holes and the boundary asked for, on all points."""
         return not self.faults
 
     @property
     def is_one_to_one(self) -> bool:
-        """Whether the parameters map a disc to the plane one-to-one; False without uv.
+        """Whether the parameters map the mesh to the plane one-to-one; False without uv.
 
-        All triangles are positive and their common boundary is a simple polygon, so that no two of them overlap.
+        All triangles are positive and their boundary loops are simple polygons that run round their outside. A place in
+        the plane is covered as often as the loops wind around it, so at most once.
         """
         is_positive = self.coinciding_uv == 0 and self.flat_or_folded_uv == 0
-        return self.is_disc and is_positive and self.simple_uv_boundary is True
+        return self.is_as_asked and is_positive and self.simple_uv_boundary is True
 
     @property
     def faults(self) -> tuple[str, ...]:
         """The ways in which the mesh is not the disc asked for, as phrases; empty when it is one."""
+        euler, loops = 1 - self.holes, 1 + self.holes
         checks = (
             (self.n_triangles == 0, "it has no triangles"),
             (self.unused_points > 0, f"{self.unused_points} points are in no triangle"),
             (self.overfull_edges > 0, f"{self.overfull_edges} edges have more than two triangles or turn over"),
             (self.pinched_points > 0, f"{self.pinched_points} points have several fans of triangles"),
             (self.parts > 1, f"it has {self.parts} parts instead of 1"),
-            (self.euler != 1, f"its Euler characteristic is {self.euler} instead of 1"),
-            (self.boundary_loops != 1, f"it has {self.boundary_loops} boundary loops instead of 1"),
+            (self.euler != euler, f"its Euler characteristic is {self.euler} instead of {euler}"),
+            (self.boundary_loops != loops, f"it has {self.boundary_loops} boundary loops instead of {loops}"),
             (self.boundary_as_given is False, "its boundary is not the loop given"),
         )
         return tuple(phrase for failed, phrase in checks if failed)
@@ -103,6 +114,7 @@ def certify(
     uv: ArrayLike | None = None,
     loop: ArrayLike | None = None,
     spacing: Floats | None = None,
+    holes: int = 0,
 ) -> Certificate:
     """Check a mesh against its points, its parameters and the boundary asked for.
 
@@ -116,6 +128,8 @@ def certify(
         The boundary asked for; where it starts and which way it runs does not matter.
     spacing : (n,) array, optional
         Local spacing; measured, if not given.
+    holes : int
+        How many holes the disc should have: gaps that were left open.
 
     Returns
     -------
@@ -156,9 +170,10 @@ def certify(
         boundary_as_given=None if loop is None else _is_same_cycle(loops, check_loop(loop, len(cloud))),
         coinciding_uv=None if plane is None else len(coinciding(plane)),
         flat_or_folded_uv=None if plane is None else int((orientation_signs(plane, faces) <= 0).sum()),
-        simple_uv_boundary=is_simple(plane[loops[0]]) if plane is not None and len(loops) == 1 else None,
+        simple_uv_boundary=_bound_simply(plane, loops) if plane is not None and len(loops) == 1 + holes else None,
         longest_edge_over_spacing=float((lengths / local).max()) if len(faces) else 0.0,
         folds=int((dihedral_angles(cloud, faces, edges) > FOLD_ANGLE).sum()),
+        holes=holes,
     )
 
 
@@ -187,11 +202,23 @@ def _count_parts(edges: HalfEdges, n_points: int) -> int:
     return int(sp.csgraph.connected_components(graph, directed=False)[0])
 
 
+def _bound_simply(plane: UV, loops: list[Loop]) -> bool:
+    """Tell whether loops are simple polygons, one of them anticlockwise and the others, those of holes, clockwise."""
+    directions = []
+    for loop in loops:
+        # A simple polygon turns at its lowest corner as it runs on the whole.
+        lowest = int(np.lexsort(plane[loop].T)[0])
+        corner = loop[[lowest - 1, lowest, (lowest + 1) % len(loop)]]
+        directions.append(int(orientation_signs(plane, corner[None])[0]))
+    return sorted(directions, reverse=True) == [1] + [-1] * (len(loops) - 1) and all(
+        is_simple(plane[loop]) for loop in loops
+    )
+
+
 def _is_same_cycle(loops: list[Loop], asked: Loop) -> bool:
-    if len(loops) != 1 or len(loops[0]) != len(asked):
+    """Tell whether one of the loops is that asked for, wherever it starts and whichever way it runs."""
+    of_it = [loop for loop in loops if asked[0] in loop]
+    if len(of_it) != 1 or len(of_it[0]) != len(asked):
         return False
-    at = np.flatnonzero(loops[0] == asked[0])
-    if len(at) == 0:
-        return False
-    turned = np.roll(loops[0], -at[0])
+    turned = np.roll(of_it[0], -int(np.flatnonzero(of_it[0] == asked[0])[0]))
     return bool(np.array_equal(turned, asked) or np.array_equal(turned[1:], asked[:0:-1]))

@@ -49,20 +49,22 @@ def uv_on_mesh(points: Points, loop: Loop, boundary_uv: UV, meshed: Meshed, solv
     triangles = meshed.swapped.triangles
     rings = one_rings(triangles, len(points))
     mapped: Parameterization | None = None
+    failure: SolveError | None = None
     for scheme in (mean_value, uniform):
         weights = scheme(points, rings)
         for _ in range(SOLVES):
             try:
                 mapped = solve_map(points, loop, boundary_uv, rings, weights=fixed(weights), solver=solver)
-            except SolveError:
-                if mapped is None:
-                    raise
+            except SolveError as reason:
+                failure = failure or reason
                 break
             if (orientation_signs(mapped.uv, triangles) > 0).all():
                 return mapped
             stretch = vertex_stretches(points, triangles, mapped.uv)
             weights = normalize(weights / stretch[rings.indices], rings)
-    return cast(Parameterization, mapped)
+    if mapped is None:
+        raise cast(SolveError, failure)
+    return mapped
 
 
 def fixed(weights: Weights) -> WeightScheme:

@@ -10,7 +10,7 @@ from ._parallel import over_ranges
 from .errors import InputError
 from .mesh import one_rings
 from .neighbors import Neighborhoods
-from .typing import Floats, Mask, Points, Triangles, Weights
+from .typing import Floats, Indices, Mask, Points, Triangles, Weights
 from .weights import WeightScheme, normalize, reciprocal_distance
 
 LONE_TRUST = 0.01  # a link that only one star sees: never 0, since the graph must stay connected
@@ -57,17 +57,36 @@ def link_stars(star: Neighborhoods) -> Links:
     >>> links.neighborhoods.sizes, links.trust.min()
     (array([4, 3, 3, 3, 3]), np.float64(1.0))
     """
-    if star.is_open is None:
-        raise InputError("only ordered neighbourhoods can agree on triangles; use Delaunay stars")
-    agrees = np.zeros(len(star.indices), np.bool_)
-    over_ranges(
-        lambda first, last: agreement(star.indptr, star.indices, star.is_open, first, last, agrees), star.n_points
-    )
-    trust = np.where(agrees, 1.0, LONE_TRUST)
+    trust = np.where(_agree(star), 1.0, LONE_TRUST)
     graph = sp.csr_array((trust, star.indices, star.indptr), shape=(star.n_points, star.n_points))
     both = graph.maximum(graph.T.tocsr()).tocsr()
     neighborhoods = Neighborhoods(both.indptr.astype(np.int64), both.indices.astype(np.int64))
     return Links(neighborhoods, both.data)
+
+
+def disputed_links(star: Neighborhoods) -> Indices:
+    """Count the links of each point's star on which no neighbouring star agrees, (n,).
+
+    None on a clearly sampled surface; some where sheets are close, at creases and in noise.
+
+    Examples
+    --------
+    >>> from pointchart.neighbors import nearest
+    >>> from pointchart.stars import delaunay_star
+    >>> plus = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0]]
+    >>> disputed_links(delaunay_star(plus, nearest(plus, 4)))
+    array([0, 0, 0, 0, 0])
+    """
+    return np.bincount(star.rows, ~_agree(star), star.n_points).astype(np.int64)
+
+
+def _agree(star: Neighborhoods) -> Mask:
+    """Tell for each link of a star whether it is an edge of a triangle that another star holds as well."""
+    if star.is_open is None:
+        raise InputError("only ordered neighbourhoods can agree on triangles; use Delaunay stars")
+    agrees, is_open = np.zeros(len(star.indices), np.bool_), star.is_open
+    over_ranges(lambda first, last: agreement(star.indptr, star.indices, is_open, first, last, agrees), star.n_points)
+    return agrees
 
 
 def distrust_far(links: Links, triangles: Triangles) -> Links:

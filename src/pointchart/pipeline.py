@@ -6,33 +6,26 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ._check import check_loop, check_points
-from .boundary import (
-    Candidate,
-    FoundBoundary,
-    anticlockwise,
-    check_order,
-    chord_length_on_circle,
-    find_boundary,
-)
-from .bridges import Bridge, find_bridges
+from .boundary import Candidate, chord_length_on_circle
+from .bridges import Bridge, find_bridges, open_gaps
 from .certify import Certificate, certify
 from .chart import ChartRule, uv_on_mesh
 from .clock import StageClock
-from .errors import SolveError, points_called
-from .links import link_stars
+from .errors import PointchartError, SolveError, points_called
+from .gaps import SECOND_BOUNDARY, GapRule, Rims, bridge_gaps, check_torn, refuse_second_boundary
+from .links import disputed_links, link_stars
 from .neighbors import Neighborhoods, nearest
 from .parameterize import Parameterization, parameterize
-from .prepare import Cloud, prepare
 from .refine import Meshed, SwapRule, mesh_once, mesh_repeatedly
 from .solve import Solver, default_solver
 from .stars import nearest_star
+from .survey import Survey, survey_scan
 from .swaps import swap_off_sides, swap_to_delaunay
 from .typing import UV, Indices, Loop, Points, Triangles
-from .vicinity import NEAREST, Vicinity, explore
+from .vicinity import NEAREST
 from .weights import WeightScheme, mean_value
 
-SECOND_BOUNDARY = 0.25  # a gap with this share of the boundary's length and points may as well be the boundary
+TRIALS = 3  # loops tried, the best first, until a mesh stands
 
 Connect = Callable[[Points], Neighborhoods]
 LayoutRule = Callable[[Points, Loop], UV]
@@ -40,7 +33,7 @@ LayoutRule = Callable[[Points, Loop], UV]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Reconstruction:
-    """A certified disc on the points of a scan.
+    """A certified disc on the points of a scan, with holes where gaps were to be left open.
 
     Attributes
     ----------
@@ -73,7 +66,10 @@ class Evidence:
     candidates : list of Candidate
         Loops that the boundary was chosen from; empty if it was given.
     bridges : list of Bridge
-        Patches of the mesh that bridge gaps of the scan.
+        Patches of long triangles, over gaps of the scan or where the mesh is in doubt; in the unit of the scan. Their
+        triangles are numbered as before any gap was left open.
+    failures : list of PointchartError
+        Why better candidates for the boundary did not do.
     meshed : Meshed
         The first map, the swaps and the rounds, in the numbering of the prepared cloud.
     chart : Parameterization
@@ -82,38 +78,17 @@ class Evidence:
 
     candidates: list[Candidate]
     bridges: list[Bridge]
+    failures: list[PointchartError]
     meshed: Meshed
     chart: Parameterization
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Survey:
-    """What is known of a scan before it is mapped.
-
-    Attributes
-    ----------
-    scan : (N, 3) float64
-        The points as given.
-    cloud : Cloud
-    vicinity : Vicinity
-        Of the cloud's points.
-    loop : (b,) int64
-        Boundary points of the cloud, anticlockwise.
-    found : FoundBoundary or None
-        How the boundary was found; None if it was given.
-    """
-
-    scan: Points
-    cloud: Cloud
-    vicinity: Vicinity
-    loop: Loop
-    found: FoundBoundary | None
 
 
 def reconstruct(
     points: ArrayLike,
     loop: ArrayLike | None = None,
     *,
+    outer: ArrayLike | None = None,
+    gaps: GapRule | None = None,
     connect: Connect | None = None,
     weights: WeightScheme | None = None,
     swap: SwapRule = swap_to_delaunay,
@@ -130,6 +105,11 @@ def reconstruct(
         The scan, in any unit and at any offset. Repeated points are merged.
     loop : (b,) int array, optional
         Boundary rows in order, in either direction; found, if not given.
+    outer : (3,) array, optional
+        A place: of the loops found, the one that passes nearest to it is the boundary.
+    gaps : callable, optional
+        ``gaps(rims)``: `refuse_second_boundary`, `bridge_gaps` or `leave_gaps_open`. If not given, gaps are bridged,
+        and one that may as well be the boundary is refused unless `loop` or `outer` say what the boundary is.
     connect : callable, optional
         ``connect(points) -> Neighborhoods``, as for the paper's methods, to be used with `weights`; it is called with
         the distinct points in spatial order, in the unit of the scan. If not given, Delaunay stars are linked by
@@ -172,72 +152,23 @@ def reconstruct(
     (True, True)
     """
     clock = clock or StageClock()
-    survey = survey_scan(points, loop, clock=clock)
+    survey = survey_scan(points, loop, outer=outer, clock=clock)
     solver = solver or default_solver(len(survey.cloud.points))
-    cloud, rim = survey.cloud, survey.loop
-    boundary_uv = layout(survey.scan, cloud.rows[rim])
-    with points_called(cloud.rows):
-        meshed = _mesh(survey, connect, weights, swap, solver, clock)
-        bridges = find_bridges(cloud.points, meshed.swapped.triangles, survey.vicinity.spacing)
-        _check_bridges(survey, bridges)
+    rule = gaps or (refuse_second_boundary if loop is None and outer is None else bridge_gaps)
+    trials = survey.trials[:TRIALS] if outer is None else [survey]
+    with points_called(survey.cloud.rows):
+        stand = _first_that_stands(
+            trials, rule, lambda trial: _mesh(trial, connect, weights, swap, layout, solver, clock)
+        )
+        cloud, rim = survey.cloud, stand.survey.loop
         with clock("parameters"):
-            meshed = replace(meshed, swapped=swap_off_sides(meshed.swapped, rim, boundary_uv))
-            mapped = chart(cloud.points, rim, boundary_uv, meshed, solver)
+            mapped = chart(cloud.points, rim, stand.boundary_uv, stand.meshed, solver)
         with clock("certify"):
-            proof = certify(
-                cloud.points, meshed.swapped.triangles, uv=mapped.uv, loop=rim, spacing=survey.vicinity.spacing
-            )
+            triangles, holes = open_gaps(stand.meshed.swapped.triangles, stand.opened, len(cloud.points))
+            spacing = survey.vicinity.spacing
+            proof = certify(cloud.points, triangles, uv=mapped.uv, loop=rim, spacing=spacing, holes=holes)
             _check_proof(proof, chart)
-    return _in_rows(
-        cloud, rim, mapped, proof, Evidence(survey.found.candidates if survey.found else [], bridges, meshed, mapped)
-    )
-
-
-def survey_scan(points: ArrayLike, loop: ArrayLike | None = None, *, clock: StageClock | None = None) -> Survey:
-    """Prepare a scan, find its Delaunay stars and its boundary: what every reconstruction begins with.
-
-    Parameters
-    ----------
-    points : (N, 3) array
-        The scan, in any unit and at any offset. Repeated points are merged.
-    loop : (b,) int array, optional
-        Boundary rows in order, in either direction; found, if not given.
-    clock : StageClock, optional
-
-    Returns
-    -------
-    Survey
-
-    Raises
-    ------
-    InputError
-        If the points are no single patch, or the boundary is at fault.
-
-    Examples
-    --------
-    >>> from pointchart import shapes
-    >>> sheet = shapes.grid(12, 9)
-    >>> survey = survey_scan(sheet.points)
-    >>> sorted(survey.cloud.rows[survey.loop]) == sorted(sheet.boundary)
-    True
-    """
-    clock = clock or StageClock()
-    with clock("prepare"):
-        scan = check_points(points)
-        cloud = prepare(scan)
-        given = None if loop is None else check_loop(loop, len(scan))
-    with points_called(cloud.rows):
-        with clock("neighbours"):
-            vicinity = explore(cloud.points)
-        with clock("boundary"):
-            if given is None:
-                found = find_boundary(cloud.points, vicinity=vicinity)
-                rim = found.loop
-            else:
-                found, rim = None, check_loop(cloud.places[given], len(cloud.points))
-                check_order(cloud.points, rim)
-                rim = anticlockwise(cloud.points, rim)
-    return Survey(scan, cloud, vicinity, rim, found)
+    return _in_rows(stand, triangles, mapped, proof)
 
 
 def parameterize_scan(
@@ -284,64 +215,70 @@ def _default_stars(points: Points) -> Neighborhoods:
     return nearest_star(points, nearest(points, NEAREST))
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class _Stand:
+    """A mesh that stands, with the survey of the loop that it has for its boundary."""
+
+    survey: Survey
+    boundary_uv: UV
+    meshed: Meshed
+    bridges: list[Bridge]
+    opened: list[Bridge]
+    failures: list[PointchartError]
+
+
+def _first_that_stands(trials: list[Survey], rule: GapRule, mesh: Callable[[Survey], tuple[Meshed, UV]]) -> _Stand:
+    """Mesh a scan with one loop after the other, until the mesh bridges nothing but gaps.
+
+    A false loop has to be bridged over the true one, which shows. If none stands, the first failure tells why.
+    """
+    failures: list[PointchartError] = []
+    for trial in trials:
+        try:
+            return _stand(trial, rule, *mesh(trial), failures)
+        except PointchartError as failure:
+            failures.append(failure)
+    raise failures[0]
+
+
+def _stand(survey: Survey, rule: GapRule, meshed: Meshed, boundary_uv: UV, failures: list[PointchartError]) -> _Stand:
+    """Check that a mesh bridges nothing but gaps of the scan, and those as the rule wants."""
+    points, spacing = survey.points, survey.cloud.scale * survey.vicinity.spacing
+    bridges = find_bridges(points, meshed.swapped.triangles, spacing, lambda: survey.is_boundary)
+    rims = Rims(points, survey.loop, [bridge for bridge in bridges if bridge.is_gap])
+    # A boundary that was given speaks for a disc: then bad places of the mesh are only reported.
+    least = 0.0 if survey.found else SECOND_BOUNDARY * rims.length
+    check_torn(points, bridges, disputed_links(survey.vicinity.star), least=least)
+    opened = rule(rims)
+    return _Stand(survey, boundary_uv, meshed, bridges, opened, failures)
+
+
 def _mesh(
     survey: Survey,
     connect: Connect | None,
     weights: WeightScheme | None,
     swap: SwapRule,
+    layout: LayoutRule,
     solver: Solver,
     clock: StageClock,
-) -> Meshed:
+) -> tuple[Meshed, UV]:
+    """Mesh the points inside the loop; return the mesh, and where its boundary goes on the domain."""
     points, rim = survey.cloud.points, survey.loop
-    circle = chord_length_on_circle(points, rim)
+    boundary_uv, circle = layout(survey.scan, survey.cloud.rows[rim]), chord_length_on_circle(points, rim)
     if connect is None and weights is None:
         with clock("neighbours"):
             links = link_stars(survey.vicinity.star)
-        return mesh_repeatedly(points, rim, circle, links, swap=swap, solver=solver, clock=clock)
-    with clock("neighbours"):
-        neighborhoods = (connect or _default_stars)(points * survey.cloud.scale)
-    weights = weights or mean_value
-    return mesh_once(points, rim, circle, neighborhoods, weights=weights, swap=swap, solver=solver, clock=clock)
-
-
-def _check_bridges(survey: Survey, bridges: list[Bridge]) -> None:
-    """Refuse a surface that is no disc: it shows as a bridge with a good part of the boundary's length and points.
-
-    Over a hole, the points along the bridge have an angular gap. A boundary that was found may then be the wrong one;
-    one that was given is taken at its word. A bridge elsewhere means a surface that cannot be flattened, such as a
-    handle.
-    """
-    points, loop = survey.cloud.points, survey.loop
-    length = np.linalg.norm(points[np.roll(loop, -1)] - points[loop], axis=1).sum()
-    large = [
-        bridge
-        for bridge in bridges
-        if bridge.rim_length >= SECOND_BOUNDARY * length and len(bridge.points) >= SECOND_BOUNDARY * len(loop)
-    ]
-    if not large:
-        return
-    is_boundary = survey.found.scores.is_boundary if survey.found else np.ones(len(points), bool)
-    for bridge in large:
-        if is_boundary[bridge.points].mean() < 0.5:
-            raise SolveError(
-                f"the surface is no disc: a patch of {len(bridge.points)} points at point {{there}} is joined by edges "
-                "of over four spacings although the scan has no gap there, as on a handle, a twist, or a part so long "
-                "that its map collapses; cut it there",
-                there=bridge.points[0],
-            )
-        if survey.found:
-            raise SolveError(
-                f"the surface has a second boundary, so it is no disc: besides the loop of {len(loop)} points that "
-                f"passes point {{here}} there is a gap of {len(bridge.points)} points, "
-                f"{bridge.rim_length / length:.2f} times as long, at point {{there}}; give the boundary, "
-                "or close the gap",
-                here=loop[0],
-                there=bridge.points[0],
-            )
+        meshed = mesh_repeatedly(points, rim, circle, links, swap=swap, solver=solver, clock=clock)
+    else:
+        with clock("neighbours"):
+            neighborhoods = (connect or _default_stars)(points * survey.cloud.scale)
+        scheme = weights or mean_value
+        meshed = mesh_once(points, rim, circle, neighborhoods, weights=scheme, swap=swap, solver=solver, clock=clock)
+    return replace(meshed, swapped=swap_off_sides(meshed.swapped, rim, boundary_uv)), boundary_uv
 
 
 def _check_proof(proof: Certificate, chart: ChartRule) -> None:
-    if not proof.is_disc:
+    if not proof.is_as_asked:
         raise SolveError(f"the mesh is no disc: {', '.join(proof.faults)}; give another boundary or neighbourhood")
     if chart is uv_on_mesh and not proof.is_one_to_one:
         raise SolveError(
@@ -351,18 +288,17 @@ def _check_proof(proof: Certificate, chart: ChartRule) -> None:
         )
 
 
-def _in_rows(
-    cloud: Cloud, rim: Loop, mapped: Parameterization, proof: Certificate, evidence: Evidence
-) -> Reconstruction:
+def _in_rows(stand: _Stand, triangles: Triangles, mapped: Parameterization, proof: Certificate) -> Reconstruction:
     """Return everything in the numbering of the scan."""
+    cloud, found = stand.survey.cloud, stand.survey.found
     order = np.argsort(cloud.rows)
     vertex = np.empty_like(order)
     vertex[order] = np.arange(len(order))
-    bridges = [
-        replace(bridge, points=vertex[bridge.points], rim_length=cloud.scale * bridge.rim_length)
-        for bridge in evidence.bridges
-    ]
-    candidates = [replace(c, loop=vertex[c.loop], length=cloud.scale * c.length) for c in evidence.candidates]
-    evidence = replace(evidence, bridges=bridges, candidates=candidates)
-    triangles = vertex[evidence.meshed.swapped.triangles]
-    return Reconstruction(cloud.rows[order], triangles, mapped.uv[order], vertex[rim], proof, evidence)
+    candidates = (
+        [replace(c, loop=vertex[c.loop], length=cloud.scale * c.length) for c in found.candidates] if found else []
+    )
+    bridges = [replace(bridge, points=vertex[bridge.points]) for bridge in stand.bridges]
+    failures = [failure.renumbered(cloud.rows) for failure in stand.failures]
+    evidence = Evidence(candidates, bridges, failures, stand.meshed, mapped)
+    loop = vertex[stand.survey.loop]
+    return Reconstruction(cloud.rows[order], vertex[triangles], mapped.uv[order], loop, proof, evidence)

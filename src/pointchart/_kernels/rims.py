@@ -68,6 +68,37 @@ def keep_manifold(order, edge_of, sides):
 
 
 @njit(cache=True, nogil=True)
+def draw_tight(points, triangles, ends, edge_of, sides, is_boundary, on_rim, queue, removed):
+    """Remove triangles from the rims inwards whose inner corner scores as a boundary point and is obtuse.
+
+    `queue` holds an edge a place and is scratch space; `on_rim` and `removed` are marked.
+    """
+    size = head = 0
+    for e in range(len(ends)):
+        if sides[e, 0] >= 0 and sides[e, 1] < 0:
+            on_rim[ends[e, 0]] = on_rim[ends[e, 1]] = True
+            queue[size] = e
+            size += 1
+    while head < size:
+        edge = queue[head]
+        head += 1
+        t = sides[edge, 1] if sides[edge, 0] < 0 or removed[sides[edge, 0]] else sides[edge, 0]
+        a, b = ends[edge, 0], ends[edge, 1]
+        inner = triangles[t, 0] + triangles[t, 1] + triangles[t, 2] - a - b
+        if on_rim[inner] or not is_boundary[inner]:
+            continue
+        cosine = 0.0
+        for k in range(3):
+            cosine += (points[a, k] - points[inner, k]) * (points[b, k] - points[inner, k])
+        if cosine < 0.0:
+            removed[t], on_rim[inner] = True, True
+            for other in edge_of[t]:
+                if other != edge:
+                    queue[size] = other
+                    size += 1
+
+
+@njit(cache=True, nogil=True)
 def walk_rims(ends, edge_of, sides, seen, walk, starts):
     """Walk along all edges with a single triangle, at each point round the fan to the next such edge.
 

@@ -1,4 +1,4 @@
-"""What the neighbours of a point say of a boundary: the angle they leave free, their centroid, the width of its star."""
+"""What the neighbours of a point say of a boundary: the angle they leave free, their centroid, its star's width."""
 
 import math
 
@@ -45,7 +45,7 @@ def survey_sides(points, normals, indptr, indices, steepest, first, last, angle,
 
 @njit(cache=True, nogil=True)
 def star_widths(indptr, local, is_open, first, last, width):
-    """Write the largest circumradius among the triangles of the stars of points first..last; open stars are infinite."""
+    """Write the largest circumradius in the stars of points first..last; it is infinite for open stars."""
     for i in range(first, last):
         width[i] = np.inf if is_open[i] else 0.0
         for e in range(indptr[i], indptr[i + 1]):

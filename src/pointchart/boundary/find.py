@@ -13,7 +13,7 @@ from ..typing import Loop, Mask, Points
 from ..vicinity import Vicinity, explore
 from .detect import BoundaryScores, boundary_scores
 from .orient import anticlockwise
-from .rims import agreed_triangles, rims
+from .rims import agreed_triangles, rims, tightened
 
 LEAST_SHARE = 0.5
 SHORTEST = 12.0  # spacings: a shorter loop is a gap that a neighbourhood spans
@@ -54,6 +54,11 @@ class FoundBoundary:
     candidates: list[Candidate]
     scores: BoundaryScores
 
+    def beginning_with(self, k: int) -> "FoundBoundary":
+        """Return the same, with candidate k for the boundary."""
+        chosen, others = self.candidates[k], self.candidates[:k] + self.candidates[k + 1 :]
+        return FoundBoundary(chosen.loop, [chosen, *others], self.scores)
+
 
 def find_boundary(points: ArrayLike, *, vicinity: Vicinity | None = None) -> FoundBoundary:
     """Find the boundary loop of a scan.
@@ -89,7 +94,8 @@ def find_boundary(points: ArrayLike, *, vicinity: Vicinity | None = None) -> Fou
     check_one_piece(near.around)
     agreed = agreed_triangles(near.smoothed, near.star, near.spacing)
     scores = boundary_scores(near.smoothed, near.around, near.star, agreed, near.spacing)
-    found = [measure(near.smoothed, loop, scores.is_boundary) for loop in rims(agreed, len(cloud))]
+    surface = tightened(near.smoothed, agreed, scores.is_boundary)
+    found = [measure(near.smoothed, loop, scores.is_boundary) for loop in rims(surface, len(cloud))]
     scale = float(np.median(near.spacing))
     good = [c for c in found if c.share >= LEAST_SHARE and c.length >= SHORTEST * scale]
     if not good:

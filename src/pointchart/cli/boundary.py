@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 
 from ..io import check_output, read_scan, write_loop
-from ..pipeline import survey_scan
+from ..survey import survey_scan
 from . import options as given
 from .progress import staged
 

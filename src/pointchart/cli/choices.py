@@ -6,7 +6,7 @@ from functools import partial
 
 import typer
 
-from .. import boundary, chart, neighbors, pipeline, stars, swaps, weights
+from .. import boundary, chart, neighbors, stars, swaps, vicinity, weights
 from ..chart import ChartRule
 from ..neighbors import Neighborhoods
 from ..pipeline import Connect, LayoutRule
@@ -91,7 +91,7 @@ def connect_rule(kind: Neighbors | None, k: int | None, radius: float | None) ->
     if radius is not None and k is not None:
         raise typer.BadParameter("-k and --radius exclude each other: candidates are the k nearest or those in a ball")
     around: Callable[[Points], Neighborhoods] = (
-        partial(neighbors.nearest, k=pipeline.NEAREST if k is None else k)
+        partial(neighbors.nearest, k=vicinity.NEAREST if k is None else k)
         if radius is None
         else partial(neighbors.ball, radius=radius)
     )

@@ -1,0 +1,132 @@
+"""What every reconstruction begins with: the scan prepared, its neighbourhoods and its boundary."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ._check import check_loop, check_place, check_points
+from .boundary import (
+    FoundBoundary,
+    agreed_triangles,
+    anticlockwise,
+    boundary_scores,
+    check_order,
+    find_boundary,
+)
+from .clock import StageClock
+from .errors import InputError, points_called
+from .prepare import Cloud, prepare
+from .typing import Loop, Mask, Points
+from .vicinity import Vicinity, explore
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Survey:
+    """What is known of a scan before it is mapped.
+
+    Attributes
+    ----------
+    scan : (N, 3) float64
+        The points as given.
+    cloud : Cloud
+    vicinity : Vicinity
+        Of the cloud's points.
+    loop : (b,) int64
+        Boundary points of the cloud, anticlockwise.
+    found : FoundBoundary or None
+        How the boundary was found; None if it was given.
+    """
+
+    scan: Points
+    cloud: Cloud
+    vicinity: Vicinity
+    loop: Loop
+    found: FoundBoundary | None
+
+    @property
+    def points(self) -> Points:
+        """The cloud's points as the scan has them, (n, 3)."""
+        return self.scan[self.cloud.rows]
+
+    @property
+    def trials(self) -> list["Survey"]:
+        """The same survey with each candidate for the boundary, the best first; itself, if the boundary was given."""
+        if self.found is None:
+            return [self]
+        turned = [self.found.beginning_with(k) for k in range(len(self.found.candidates))]
+        return [replace(self, loop=found.loop, found=found) for found in turned]
+
+    @property
+    def is_boundary(self) -> Mask:
+        """Which points of the cloud score as boundary points, (n,)."""
+        if self.found is not None:
+            return self.found.scores.is_boundary
+        near = self.vicinity
+        agreed = agreed_triangles(near.smoothed, near.star, near.spacing)
+        return boundary_scores(near.smoothed, near.around, near.star, agreed, near.spacing).is_boundary
+
+
+def survey_scan(
+    points: ArrayLike,
+    loop: ArrayLike | None = None,
+    *,
+    outer: ArrayLike | None = None,
+    clock: StageClock | None = None,
+) -> Survey:
+    """Prepare a scan, find its Delaunay stars and its boundary: what every reconstruction begins with.
+
+    Parameters
+    ----------
+    points : (N, 3) array
+        The scan, in any unit and at any offset. Repeated points are merged.
+    loop : (b,) int array, optional
+        Boundary rows in order, in either direction; found, if not given.
+    outer : (3,) array, optional
+        A place: of the loops found, the one that passes nearest to it is the boundary.
+    clock : StageClock, optional
+
+    Returns
+    -------
+    Survey
+
+    Raises
+    ------
+    InputError
+        If the points are no single patch, or the boundary is at fault.
+
+    Examples
+    --------
+    >>> from pointchart import shapes
+    >>> sheet = shapes.grid(12, 9)
+    >>> survey = survey_scan(sheet.points)
+    >>> sorted(survey.cloud.rows[survey.loop]) == sorted(sheet.boundary)
+    True
+    """
+    clock = clock or StageClock()
+    with clock("prepare"):
+        scan = check_points(points)
+        cloud = prepare(scan)
+        given = None if loop is None else check_loop(loop, len(scan))
+        place = None if outer is None else check_place(outer)
+        if given is not None and place is not None:
+            raise InputError("both a boundary and a place of the boundary are given; give one of them")
+    with points_called(cloud.rows):
+        with clock("neighbours"):
+            vicinity = explore(cloud.points)
+        with clock("boundary"):
+            if given is None:
+                found = find_boundary(cloud.points, vicinity=vicinity)
+                if place is not None:
+                    found = found.beginning_with(nearest_to(found, scan[cloud.rows], place))
+                rim = found.loop
+            else:
+                found, rim = None, check_loop(cloud.places[given], len(cloud.points))
+                check_order(cloud.points, rim)
+                rim = anticlockwise(cloud.points, rim)
+    return Survey(scan, cloud, vicinity, rim, found)
+
+
+def nearest_to(found: FoundBoundary, points: Points, place: Points) -> int:
+    """Return which candidate passes nearest to a place."""
+    return int(np.argmin([np.linalg.norm(points[c.loop] - place, axis=1).min() for c in found.candidates]))
