@@ -26,6 +26,7 @@ from .boundary import (
 from .certify import Certificate, certify
 from .chart import uv_of_points, uv_on_mesh
 from .clock import StageClock
+from .components import largest_component
 from .errors import FormatError, InputError, PointchartError, SolveError
 from .gaps import bridge_gaps, leave_gaps_open, refuse_second_boundary
 from .io import Scan, read_loop, read_scan, write_loop, write_mesh, write_uv
@@ -84,6 +85,7 @@ __all__ = [
     "hull_test",
     "keep_edges",
     "l2_stretch",
+    "largest_component",
     "least_distance",
     "leave_gaps_open",
     "link_stars",

@@ -1,5 +1,6 @@
-"""Pictures of a run: the cloud, the parameter plane with its triangulation, the mesh."""
+"""Pictures of a run: the cloud with its boundary, the parameter plane with its triangulation, the mesh."""
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -47,6 +48,68 @@ def draw_run(
     with replacing(path) as temporary:
         figure.savefig(temporary, dpi=110, format="png")
     plt.close(figure)
+
+
+def draw_boundary(path: Path, points: Points, scores: Floats, loops: Sequence[Loop]) -> None:
+    """Draw a cloud coloured by its scores, and the loops through it, into a PNG.
+
+    Left the view onto the plane of the boundary, which shows its order; right the same turned by a right angle. The
+    boundary begins at the dot and runs the way of the arrow; every tenth of its points is named by its place in it.
+
+    Parameters
+    ----------
+    path : Path
+    points : (n, 3) array
+    scores : (n,) array
+        From 0 to 1.
+    loops : sequence of (b,) int arrays
+        The boundary first, then the gaps.
+    """
+    import matplotlib as mpl
+
+    mpl.use("Agg")
+    from matplotlib import pyplot as plt
+
+    figure, panels = plt.subplots(1, 2, figsize=(15.0, 7.4), facecolor=PAPER, layout="constrained")
+    facing = (points - points[loops[0]].mean(axis=0)) @ _plane_axes(points[loops[0]]).T
+    for axes, turned in zip(panels, (facing, facing[:, [0, 2, 1]] * [1, 1, -1]), strict=True):
+        order = np.argsort(turned[:, 2])
+        drawn = axes.scatter(
+            *turned[order, :2].T, c=scores[order], s=1.5, cmap="viridis_r", vmin=0, vmax=1, linewidths=0
+        )
+        for number, loop in enumerate(loops):
+            _trace(axes, turned[loop], is_boundary=number == 0)
+        axes.set_aspect("equal")
+        axes.set_axis_off()
+    panels[0].set_title(f"the boundary: {len(loops[0])} points", color=INK)
+    panels[1].set_title(f"from the side; {len(loops) - 1} other loops", color=INK)
+    figure.colorbar(drawn, ax=panels, shrink=0.6, label="score: 0 inside, 1 boundary")
+    with replacing(path) as temporary:
+        figure.savefig(temporary, dpi=110, format="png")
+    plt.close(figure)
+
+
+def _plane_axes(corners: Points) -> Floats:
+    """Return two axes of the plane of a loop and its normal, towards which it runs anticlockwise."""
+    centred = corners - corners.mean(axis=0)
+    normal = np.cross(centred, np.roll(centred, -1, axis=0)).sum(axis=0)
+    normal /= max(float(np.linalg.norm(normal)), 1e-300)
+    longest = np.linalg.svd(centred - np.outer(centred @ normal, normal), full_matrices=False)[2][0]
+    return np.stack([longest, np.cross(normal, longest), normal])
+
+
+def _trace(axes: Any, places: Points, *, is_boundary: bool) -> None:
+    closed = np.append(places, places[:1], axis=0)
+    axes.plot(closed[:, 0], closed[:, 1], color=ACCENT if is_boundary else INK, linewidth=1.6 if is_boundary else 1.0)
+    if not is_boundary:
+        return
+    axes.plot(*places[0, :2], "o", color=ACCENT, markersize=8)
+    ahead = places[max(1, len(places) // 40)]
+    arrow = {"arrowstyle": "-|>", "color": ACCENT, "linewidth": 1.6, "mutation_scale": 18}
+    axes.annotate("", xy=ahead[:2], xytext=places[0, :2], arrowprops=arrow)
+    step = max(1, len(places) // 10)
+    for k in range(0, len(places) - step // 2, step):
+        axes.annotate(str(k), places[k, :2], color=INK, fontsize=8, xytext=(4, 4), textcoords="offset points")
 
 
 def _scatter(axes: Any, turned: Points) -> None:

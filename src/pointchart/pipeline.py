@@ -175,6 +175,7 @@ def parameterize_scan(
     points: ArrayLike,
     loop: ArrayLike | None = None,
     *,
+    outer: ArrayLike | None = None,
     connect: Connect | None = None,
     weights: WeightScheme | None = None,
     layout: LayoutRule = chord_length_on_circle,
@@ -199,7 +200,7 @@ def parameterize_scan(
     True
     """
     clock = clock or StageClock()
-    survey = survey_scan(points, loop, clock=clock)
+    survey = survey_scan(points, loop, outer=outer, clock=clock)
     cloud, rim = survey.cloud.points, survey.loop
     boundary_uv = layout(survey.scan, survey.cloud.rows[rim])
     with points_called(survey.cloud.rows):
@@ -244,7 +245,7 @@ def _first_that_stands(trials: list[Survey], rule: GapRule, mesh: Callable[[Surv
 def _stand(survey: Survey, rule: GapRule, meshed: Meshed, boundary_uv: UV, failures: list[PointchartError]) -> _Stand:
     """Check that a mesh bridges nothing but gaps of the scan, and those as the rule wants."""
     points, spacing = survey.points, survey.cloud.scale * survey.vicinity.spacing
-    bridges = find_bridges(points, meshed.swapped.triangles, spacing, lambda: survey.is_boundary)
+    bridges = find_bridges(points, meshed.swapped.triangles, spacing, lambda: survey.scores.is_boundary)
     rims = Rims(points, survey.loop, [bridge for bridge in bridges if bridge.is_gap])
     # A boundary that was given speaks for a disc: then bad places of the mesh are only reported.
     least = 0.0 if survey.found else SECOND_BOUNDARY * rims.length
@@ -290,13 +291,11 @@ def _check_proof(proof: Certificate, chart: ChartRule) -> None:
 
 def _in_rows(stand: _Stand, triangles: Triangles, mapped: Parameterization, proof: Certificate) -> Reconstruction:
     """Return everything in the numbering of the scan."""
-    cloud, found = stand.survey.cloud, stand.survey.found
+    cloud = stand.survey.cloud
     order = np.argsort(cloud.rows)
     vertex = np.empty_like(order)
     vertex[order] = np.arange(len(order))
-    candidates = (
-        [replace(c, loop=vertex[c.loop], length=cloud.scale * c.length) for c in found.candidates] if found else []
-    )
+    candidates = [replace(c, loop=vertex[c.loop], length=cloud.scale * c.length) for c in stand.survey.candidates]
     bridges = [replace(bridge, points=vertex[bridge.points]) for bridge in stand.bridges]
     failures = [failure.renumbered(cloud.rows) for failure in stand.failures]
     evidence = Evidence(candidates, bridges, failures, stand.meshed, mapped)

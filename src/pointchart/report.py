@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from .boundary import Candidate
 from .bridges import Bridge
 from .certify import Certificate
 from .clock import StageClock
@@ -27,8 +28,10 @@ def certificate_lines(proof: Certificate) -> list[str]:
     """Write a certificate as a checklist, one check a line."""
     lines = [_line(getattr(proof, field) == 0, name, text, getattr(proof, field)) for name, field, text in CHECKS]
     lines.append(_line(proof.parts == 1, "one part", "there are {}", proof.parts))
-    lines.append(_line(proof.euler == 1, "Euler characteristic 1", "it is {}", proof.euler))
-    lines.append(_line(proof.boundary_loops == 1, "one boundary loop", "there are {}", proof.boundary_loops))
+    euler, loops = 1 - proof.holes, 1 + proof.holes
+    lines.append(_line(proof.euler == euler, f"Euler characteristic {euler}", "it is {}", proof.euler))
+    name = "one boundary loop" if loops == 1 else f"{loops} boundary loops, {proof.holes} of them round holes"
+    lines.append(_line(proof.boundary_loops == loops, name, "there are {}", proof.boundary_loops))
     if proof.boundary_as_given is not None:
         lines.append(_line(proof.boundary_as_given, "boundary as asked for", "another loop", 0))
     if proof.coinciding_uv is not None:
@@ -47,11 +50,34 @@ def certificate_lines(proof: Certificate) -> list[str]:
     return lines
 
 
+def boundary_lines(result: Reconstruction, points: Points, *, found: bool) -> list[str]:
+    """Say what the boundary is and what was bridged, one thing a line; `points` are those of the vertices."""
+    lines = [f"boundary of {len(result.loop)} points, {'found' if found else 'as given'}"]
+    if result.evidence.failures:
+        lines[0] += (
+            f", the best of {len(result.evidence.candidates)} loops after {len(result.evidence.failures)} trials"
+        )
+    gaps = [bridge for bridge in result.evidence.bridges if bridge.is_gap]
+    doubts = [bridge for bridge in result.evidence.bridges if not bridge.is_gap]
+    holes = result.certificate.holes
+    if gaps:
+        done = f"{holes} left open" if holes else "bridged"
+        lines.append(f"{len(gaps)} gaps of the scan, {done}, the largest {len(gaps[0].points)} points round")
+    if doubts:
+        place = ", ".join(f"{x:.6g}" for x in points[doubts[0].points[0]])
+        lines.append(
+            f"look at {len(doubts)} places that the mesh spans by edges of over four spacings although the scan has no "
+            f"gap there, the largest at vertex {doubts[0].points[0]} ({place})"
+        )
+    return lines
+
+
 def summary(proof: Certificate) -> str:
     """Say in one sentence what was proved."""
-    if not proof.is_disc:
+    if not proof.is_as_asked:
         return f"no disc: {', '.join(proof.faults)}"
-    text = f"a certified disc: {proof.n_points} points, {proof.n_triangles} triangles"
+    holes = {0: "", 1: " with a hole"}.get(proof.holes, f" with {proof.holes} holes")
+    text = f"a certified disc{holes}: {proof.n_points} points, {proof.n_triangles} triangles"
     if proof.coinciding_uv is None:
         return text
     if proof.is_one_to_one:
@@ -94,7 +120,10 @@ def run_report(
             "points": len(result.loop),
             "length": float(steps.sum()),
             "origin": "given" if boundary_given else "found",
-            "gaps": [_gap(bridge) for bridge in result.evidence.bridges],
+            "loops": [_loop(candidate) for candidate in result.evidence.candidates],
+            "gaps": [_bridge(bridge) for bridge in result.evidence.bridges if bridge.is_gap],
+            "doubts": [_bridge(bridge) for bridge in result.evidence.bridges if not bridge.is_gap],
+            "tried_before": [str(failure) for failure in result.evidence.failures],
         },
         "solve": solve_report(solution),
         "solve_uv": solve_report(result.evidence.chart.solution),
@@ -116,6 +145,8 @@ def certificate_report(proof: Certificate) -> dict[str, Any]:
     """Return a certificate as plain data for JSON."""
     return {
         "disc": proof.is_disc,
+        "holes": proof.holes,
+        "as_asked": proof.is_as_asked,
         "every_point_used": proof.unused_points == 0,
         "parts": proof.parts,
         "euler": proof.euler,
@@ -170,5 +201,20 @@ def _line(passed: bool, name: str, fault: str, count: int | None) -> str:
     return f"[ok] {name}" if passed else f"[!!] {name}: {fault.format(count)}"
 
 
-def _gap(bridge: Bridge) -> dict[str, Any]:
-    return {"points": len(bridge.points), "length": bridge.rim_length, "at_vertex": int(bridge.points[0])}
+def _loop(candidate: Candidate) -> dict[str, Any]:
+    return {
+        "points": len(candidate.loop),
+        "length": candidate.length,
+        "closed": True,
+        "confidence": round(candidate.share, 4),
+        "at_vertex": int(candidate.loop[0]),
+    }
+
+
+def _bridge(bridge: Bridge) -> dict[str, Any]:
+    return {
+        "points": len(bridge.points),
+        "length": bridge.rim_length,
+        "spacings": round(bridge.rim_in_spacings, 1),
+        "at_vertex": int(bridge.points[0]),
+    }

@@ -7,6 +7,8 @@ from numpy.typing import ArrayLike
 
 from ._check import check_loop, check_place, check_points
 from .boundary import (
+    BoundaryScores,
+    Candidate,
     FoundBoundary,
     agreed_triangles,
     anticlockwise,
@@ -17,7 +19,7 @@ from .boundary import (
 from .clock import StageClock
 from .errors import InputError, points_called
 from .prepare import Cloud, prepare
-from .typing import Loop, Mask, Points
+from .typing import Loop, Points
 from .vicinity import Vicinity, explore
 
 
@@ -58,13 +60,18 @@ class Survey:
         return [replace(self, loop=found.loop, found=found) for found in turned]
 
     @property
-    def is_boundary(self) -> Mask:
-        """Which points of the cloud score as boundary points, (n,)."""
+    def candidates(self) -> list[Candidate]:
+        """The loops that the boundary was chosen from, the best first; none if it was given."""
+        return self.found.candidates if self.found else []
+
+    @property
+    def scores(self) -> BoundaryScores:
+        """How much speaks for each point of the cloud lying on a boundary."""
         if self.found is not None:
-            return self.found.scores.is_boundary
+            return self.found.scores
         near = self.vicinity
         agreed = agreed_triangles(near.smoothed, near.star, near.spacing)
-        return boundary_scores(near.smoothed, near.around, near.star, agreed, near.spacing).is_boundary
+        return boundary_scores(near.smoothed, near.around, near.star, agreed, near.spacing)
 
 
 def survey_scan(

@@ -3,12 +3,11 @@
 from dataclasses import dataclass, replace
 
 import numpy as np
-import scipy.sparse as sp
 from numpy.typing import ArrayLike
 
 from .._check import check_points
+from ..components import check_one_piece
 from ..errors import InputError
-from ..neighbors import Neighborhoods
 from ..typing import Loop, Mask, Points
 from ..vicinity import Vicinity, explore
 from .detect import BoundaryScores, boundary_scores
@@ -108,28 +107,6 @@ def find_boundary(points: ArrayLike, *, vicinity: Vicinity | None = None) -> Fou
     good.sort(key=lambda c: -c.share * c.length)
     good = [replace(candidate, loop=anticlockwise(cloud, candidate.loop)) for candidate in good]
     return FoundBoundary(good[0].loop, good, scores)
-
-
-def check_one_piece(around: Neighborhoods) -> None:
-    """Check that the neighbourhoods join all points.
-
-    Raises
-    ------
-    InputError
-        Saying how many parts there are and how large, with a point of each.
-    """
-    n = around.n_points
-    graph = sp.csr_array((np.ones(len(around.indices), np.int8), around.indices, around.indptr), shape=(n, n))
-    count, labels = sp.csgraph.connected_components(graph, directed=False)
-    if count > 1:
-        sizes = np.bincount(labels)
-        largest = np.argsort(-sizes)
-        shown = " and ".join(str(size) for size in sizes[largest][:4]) + (" ..." if count > 4 else "")
-        raise InputError(
-            f"the points fall into {count} separate parts, of {shown} points (some of them: {{seeds}}), but a patch is "
-            "in one piece; mesh the parts one by one, or remove the small ones",
-            seeds=[int(np.flatnonzero(labels == part)[0]) for part in largest],
-        )
 
 
 def measure(points: Points, loop: Loop, is_boundary: Mask) -> Candidate:

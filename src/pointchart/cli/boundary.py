@@ -4,11 +4,18 @@ import sys
 from pathlib import Path
 from typing import Annotated
 
+import numpy as np
 import typer
 
-from ..io import check_output, read_scan, write_loop
-from ..survey import survey_scan
+from ..boundary import BoundaryScores, Candidate
+from ..errors import points_called
+from ..io import check_output, write_curves, write_loop
+from ..picture import draw_boundary
+from ..survey import Survey, survey_scan
+from ..typing import Attributes, Indices, Loop
 from . import options as given
+from .choices import outer_place
+from .inputs import read_inputs
 from .progress import staged
 
 
@@ -17,23 +24,60 @@ def boundary(
     out: Annotated[
         Path, typer.Option("--out", "-o", metavar="LOOP.txt", help="Loop to write: one 0-based point index a line.")
     ],
+    picture: Annotated[
+        Path | None, typer.Option("--picture", metavar="PNG", help="Draw the cloud, its scores and the loops.")
+    ] = None,
+    ply: Annotated[
+        Path | None,
+        typer.Option("--ply", metavar="PLY", help="Write the loops as polylines and the scores as vertex properties."),
+    ] = None,
+    outer: given.OuterOption = None,
+    component: given.ComponentOption = None,
     quiet: given.QuietOption = False,
 ) -> None:
     """Find the boundary of a scan and write its points in order; the file can be edited and given back to mesh."""
-    check_output(out, suffixes=(".txt",), inputs=[scan])
-    read = read_scan(scan)
-    with staged(quiet) as clock:
-        survey = survey_scan(read.points, clock=clock)
-    write_loop(out, survey.cloud.rows[survey.loop])
+    place = outer_place(outer)
+    for path, suffix in ((picture, ".png"), (ply, ".ply")):
+        if path is not None:
+            check_output(path, suffixes=(suffix,), inputs=[scan, out])
+    inputs = read_inputs(scan, None, out=out, suffixes=(".txt",), component=component)
+    with staged(quiet) as clock, points_called(inputs.rows):
+        survey = survey_scan(inputs.points, outer=place, clock=clock)
+    rows, scores = inputs.rows[survey.cloud.rows], survey.scores
+    loops = [rows[candidate.loop] for candidate in survey.candidates]
+    write_loop(out, loops[0])
+    notes = []
+    if ply is not None:
+        attributes = _columns(loops, scores, inputs.rows, survey.cloud.places, len(inputs.scan.points))
+        notes = write_curves(ply, inputs.scan.points, loops, attributes=inputs.scan.attributes | attributes)
+    if picture is not None:
+        draw_boundary(picture, survey.points, scores.total, [candidate.loop for candidate in survey.candidates])
     if not quiet:
-        chosen, *others = survey.found.candidates
-        lines = [
-            f"{out}: a loop of {len(chosen.loop)} points, {chosen.length * survey.cloud.scale:.4g} long, "
-            f"{chosen.share:.0%} of it beside an angular gap"
-        ]
-        lines += [
-            f"another loop of {len(other.loop)} points, {other.length * survey.cloud.scale:.4g} long, at point "
-            f"{survey.cloud.rows[other.loop[0]]}: taken for a gap of the scan"
-            for other in others
-        ]
-        print("\n".join(lines), file=sys.stderr)
+        print("\n".join([*_lines(out, survey, loops), *notes]), file=sys.stderr)
+
+
+def _columns(loops: list[Loop], scores: BoundaryScores, rows: Indices, places: Indices, n_points: int) -> Attributes:
+    """Give every row of a scan the number of its loop, 0 for none, and its scores, 0 for rows not looked at."""
+    number = np.zeros(n_points, np.int32)
+    for k, loop in reversed(list(enumerate(loops, start=1))):
+        number[loop] = k
+    columns: Attributes = {"loop": number}
+    for name in ("total", "gap", "half_disc", "width", "uncovered"):
+        columns[f"score_{name}"] = np.zeros(n_points)
+        columns[f"score_{name}"][rows] = getattr(scores, name)[places]
+    return columns
+
+
+def _lines(out: Path, survey: Survey, loops: list[Loop]) -> list[str]:
+    chosen, *others = survey.candidates
+    lines = [
+        f"{out}: a loop of {_size(chosen, survey)}, {chosen.share:.0%} of it where the scores speak for a boundary"
+    ]
+    for other, loop in zip(others, loops[1:], strict=True):
+        place = ", ".join(f"{x:.6g}" for x in survey.points[other.loop[0]])
+        lines.append(f"another loop of {_size(other, survey)}, {other.share:.0%}, through point {loop[0]} at ({place})")
+    return lines
+
+
+def _size(candidate: Candidate, survey: Survey) -> str:
+    return f"{len(candidate.loop)} points, {candidate.length * survey.cloud.scale:.4g} long"

@@ -20,6 +20,9 @@ def check(
     points: Annotated[
         Path | None, typer.Option("--points", metavar="SCAN", help="The scan: vertex i has to be its point i.")
     ] = None,
+    holes: Annotated[
+        int, typer.Option("--holes", min=0, help="How many holes the disc should have: gaps that were left open.")
+    ] = 0,
     report: given.ReportOption = None,
     quiet: given.QuietOption = False,
 ) -> None:
@@ -32,12 +35,12 @@ def check(
     if points is not None:
         _compare(read, read_scan(points), mesh, points)
     uv = _uv(read)
-    proof = certify(read.points, read.triangles, uv=uv)
+    proof = certify(read.points, read.triangles, uv=uv, holes=holes)
     if report is not None:
         write_json(report, {"certificate": certificate_report(proof)})
     if not quiet:
         print("\n".join(certificate_lines(proof)), file=sys.stderr)
-    if not proof.is_disc or (uv is not None and not proof.is_one_to_one):
+    if not proof.is_as_asked or (uv is not None and not proof.is_one_to_one):
         raise InputError(f"{mesh} is {summary(proof)}; mesh the scan again, or repair it")
     if not quiet:
         print(f"{mesh}: {summary(proof)}", file=sys.stderr)
@@ -51,12 +54,15 @@ def _uv(read: Scan) -> UV | None:
 
 def _compare(read: Scan, scan: Scan, mesh: Path, path: Path) -> None:
     rows = read.attributes.get("point_index", np.arange(len(scan.points)))
-    if len(read.points) != len(rows) or len(np.unique(scan.points, axis=0)) != len(read.points):
+    n_distinct = len(np.unique(scan.points, axis=0))
+    if len(read.points) != len(rows) or ("point_index" not in read.attributes and n_distinct != len(read.points)):
         raise InputError(
             f"{mesh} has {len(read.points)} vertices, {path} {len(scan.points)} points; they do not belong together"
         )
     if np.issubdtype(rows.dtype, np.floating) or rows.min() < 0 or rows.max() >= len(scan.points):
         raise InputError(f"{mesh} has a point_index that names no point of {path}; they do not belong together")
+    if len(read.points) < n_distinct:
+        print(f"{mesh} holds {len(read.points)} of the {n_distinct} distinct points of {path}", file=sys.stderr)
     extent = np.ptp(scan.points, axis=0).max()
     moved = np.flatnonzero(np.abs(read.points - scan.points[rows]).max(axis=1) > 1e-6 * extent)
     if len(moved):

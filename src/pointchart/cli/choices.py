@@ -4,10 +4,12 @@ from collections.abc import Callable
 from enum import StrEnum
 from functools import partial
 
+import numpy as np
 import typer
 
-from .. import boundary, chart, neighbors, stars, swaps, vicinity, weights
+from .. import boundary, chart, gaps, neighbors, stars, swaps, vicinity, weights
 from ..chart import ChartRule
+from ..gaps import GapRule
 from ..neighbors import Neighborhoods
 from ..pipeline import Connect, LayoutRule
 from ..refine import SwapRule
@@ -47,6 +49,19 @@ class Spacing(StrEnum):
     centripetal = "centripetal"
 
 
+class Holes(StrEnum):
+    """What becomes of gaps of the scan."""
+
+    bridge = "bridge"
+    open = "open"
+
+
+class Component(StrEnum):
+    """Which part of a scan that falls into several."""
+
+    largest = "largest"
+
+
 class Swap(StrEnum):
     """Kinds of edge swaps."""
 
@@ -72,6 +87,7 @@ STEPS: dict[Spacing, Callable[[Points, Loop], Floats]] = {
     Spacing.uniform: boundary.uniform_steps,
     Spacing.centripetal: boundary.centripetal_steps,
 }
+GAPS: dict[Holes, GapRule] = {Holes.bridge: gaps.bridge_gaps, Holes.open: gaps.leave_gaps_open}
 SWAPS: dict[Swap, SwapRule] = {Swap.delaunay: swaps.swap_to_delaunay, Swap.none: swaps.keep_edges}
 CHARTS: dict[Chart, ChartRule] = {Chart.mesh: chart.uv_on_mesh, Chart.paper: chart.uv_of_points}
 
@@ -123,6 +139,16 @@ def layout_rule(domain: Domain, spacing: Spacing, corners: str | None) -> Layout
         return boundary.on_square(steps(points, loop), places)
 
     return square
+
+
+def outer_place(text: str | None) -> Floats | None:
+    """Return the place that the boundary passes nearest to."""
+    if text is None:
+        return None
+    try:
+        return np.array([float(word) for word in text.split(",")]).reshape(3)
+    except ValueError:
+        raise typer.BadParameter(f"--outer is '{text}'; a place is needed, such as 0.5,-12,3.25") from None
 
 
 def _corner_names(text: str) -> list[int]:

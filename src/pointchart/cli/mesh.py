@@ -6,12 +6,26 @@ from typing import Annotated
 
 import typer
 
+from ..errors import points_called
 from ..io import MESH_SUFFIXES, write_mesh
-from ..pipeline import Reconstruction, reconstruct
-from ..report import certificate_lines, run_report, summary, write_json
+from ..pipeline import reconstruct
+from ..report import boundary_lines, certificate_lines, run_report, summary, write_json
+from ..typing import Indices
 from . import options as given
-from .choices import CHARTS, SWAPS, Chart, Domain, Spacing, Swap, connect_rule, layout_rule, weights_rule
-from .inputs import read_inputs
+from .choices import (
+    CHARTS,
+    GAPS,
+    SWAPS,
+    Chart,
+    Domain,
+    Spacing,
+    Swap,
+    connect_rule,
+    layout_rule,
+    outer_place,
+    weights_rule,
+)
+from .inputs import Inputs, read_inputs
 from .output import carried, given_options
 from .progress import staged
 
@@ -23,6 +37,9 @@ def mesh(
         Path, typer.Option("--out", "-o", metavar="MESH", help="Mesh to write: ply, obj, off, stl, glb, npz.")
     ],
     boundary: given.BoundaryOption = None,
+    outer: given.OuterOption = None,
+    holes: given.HolesOption = None,
+    component: given.ComponentOption = None,
     neighbors: given.NeighborsOption = None,
     k: given.KOption = None,
     radius: given.RadiusOption = None,
@@ -39,11 +56,16 @@ def mesh(
 ) -> None:
     """Mesh a scan of one surface patch: a triangle mesh on exactly its points, certified to be a disc, with uv."""
     connect, layout = connect_rule(neighbors, k, radius), layout_rule(domain, spacing, corners)
-    read, loop = read_inputs(scan, boundary, out=out, suffixes=MESH_SUFFIXES, report=report)
-    with staged(quiet) as clock:
+    if boundary is not None and outer is not None:
+        raise typer.BadParameter("--boundary and --outer exclude each other: either say which loop the boundary is")
+    place = outer_place(outer)
+    inputs = read_inputs(scan, boundary, out=out, suffixes=MESH_SUFFIXES, report=report, component=component)
+    with staged(quiet) as clock, points_called(inputs.rows):
         result = reconstruct(
-            read.points,
-            loop,
+            inputs.points,
+            inputs.loop,
+            outer=place,
+            gaps=None if holes is None else GAPS[holes],
             connect=connect,
             weights=weights_rule(weights, neighbors),
             swap=SWAPS[swap],
@@ -52,23 +74,19 @@ def mesh(
             clock=clock,
         )
     if report is not None:
-        run = run_report(read.points, result, clock, given_options(context), boundary_given=boundary is not None)
+        run = run_report(inputs.points, result, clock, given_options(context), boundary_given=boundary is not None)
         write_json(report, run)
-    points, attributes = read.points[result.rows], carried(read, result.rows)
-    notes = write_mesh(out, points, result.triangles, uv=result.uv, attributes=attributes)
+    rows = inputs.rows[result.rows]
+    points = inputs.scan.points[rows]
+    notes = write_mesh(out, points, result.triangles, uv=result.uv, attributes=carried(inputs, rows))
     if not quiet:
-        _say(out, len(read.points), result, notes, boundary is None)
+        lines = certificate_lines(result.certificate) + boundary_lines(result, points, found=boundary is None)
+        lines += _rows_left(inputs, rows) + notes
+        print("\n".join([*lines, f"{out}: {summary(result.certificate)}"]), file=sys.stderr)
 
 
-def _say(out: Path, n_read: int, result: Reconstruction, notes: list[str], found: bool) -> None:
-    lines = certificate_lines(result.certificate)
-    lines.append(f"boundary of {len(result.loop)} points, {'found' if found else 'as given'}")
-    gaps = result.evidence.bridges
-    if gaps:
-        lines.append(f"{len(gaps)} gaps of the scan bridged, the largest {len(gaps[0].points)} points round")
-    if n_read > len(result.rows):
-        lines.append(
-            f"{n_read - len(result.rows)} repeated points merged to the first; point_index gives each vertex's row"
-        )
-    lines += [*notes, f"{out}: {summary(result.certificate)}"]
-    print("\n".join(lines), file=sys.stderr)
+def _rows_left(inputs: Inputs, rows: Indices) -> list[str]:
+    repeated, outside = len(inputs.rows) - len(rows), len(inputs.scan.points) - len(inputs.rows)
+    lines = [f"{outside} points in smaller parts left out"] if outside else []
+    lines += [f"{repeated} repeated points merged to the first"] if repeated else []
+    return [f"{', '.join(lines)}; point_index gives each vertex's row"] if lines else []

@@ -5,7 +5,7 @@ from typing import Annotated
 
 import typer
 
-from .choices import Domain, Neighbors, Spacing, Weighting
+from .choices import Component, Domain, Holes, Neighbors, Spacing, Weighting
 
 ScanArgument = Annotated[
     Path,
@@ -20,6 +20,22 @@ BoundaryOption = Annotated[
         metavar="LOOP.txt",
         help="Boundary points in order, one 0-based index a line; found, if not given.",
     ),
+]
+OuterOption = Annotated[
+    str | None,
+    typer.Option("--outer", metavar="X,Y,Z", help="Of the loops found, the boundary is the one nearest to this place."),
+]
+HolesOption = Annotated[
+    Holes | None,
+    typer.Option(
+        "--holes",
+        help="Bridge all gaps of the scan, or leave them open; by default they are bridged unless one may be the "
+        "boundary.",
+    ),
+]
+ComponentOption = Annotated[
+    Component | None,
+    typer.Option("--component", help="Of a scan in several parts, take the largest; point_index names its rows."),
 ]
 NeighborsOption = Annotated[
     Neighbors | None,

@@ -5,14 +5,14 @@ from typing import Any
 import numpy as np
 import typer
 
-from ..io import Scan
 from ..typing import Attributes, Indices
+from .inputs import Inputs
 
 
-def carried(scan: Scan, rows: Indices) -> Attributes:
-    """Take along what the scan carries per point, and each vertex's row where repeated points were merged."""
-    attributes = {name: values[rows] for name, values in scan.attributes.items()}
-    if len(rows) < len(scan.points):
+def carried(inputs: Inputs, rows: Indices) -> Attributes:
+    """Take along what the scan carries per point, and each vertex's row where not every row is a vertex."""
+    attributes = {name: values[rows] for name, values in inputs.scan.attributes.items()}
+    if len(rows) < len(inputs.scan.points):
         attributes["point_index"] = rows.astype(np.int32)
     return attributes
 

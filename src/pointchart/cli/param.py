@@ -4,7 +4,6 @@ import sys
 from pathlib import Path
 from typing import Annotated
 
-import numpy as np
 import typer
 
 from ..io import UV_SUFFIXES, write_uv
@@ -12,7 +11,7 @@ from ..pipeline import parameterize_scan
 from ..report import solve_report, stages_report, write_json
 from ..triangulate import coinciding
 from . import options as given
-from .choices import Domain, Spacing, connect_rule, layout_rule, weights_rule
+from .choices import Domain, Spacing, connect_rule, layout_rule, outer_place, weights_rule
 from .inputs import read_inputs
 from .output import carried, given_options
 from .progress import staged
@@ -25,6 +24,7 @@ def param(
         Path, typer.Option("--out", "-o", metavar="UV", help="Parameters to write: csv, txt, xyz, npy, npz, ply.")
     ],
     boundary: given.BoundaryOption = None,
+    outer: given.OuterOption = None,
     neighbors: given.NeighborsOption = None,
     k: given.KOption = None,
     radius: given.RadiusOption = None,
@@ -37,18 +37,19 @@ def param(
 ) -> None:
     """Give every point of a scan planar parameters by the paper's method, without a mesh; row i is point i."""
     connect, layout = connect_rule(neighbors, k, radius), layout_rule(domain, spacing, corners)
-    read, loop = read_inputs(scan, boundary, out=out, suffixes=UV_SUFFIXES, report=report)
+    inputs = read_inputs(scan, boundary, out=out, suffixes=UV_SUFFIXES, report=report)
     with staged(quiet) as clock:
         survey, mapped = parameterize_scan(
-            read.points,
-            loop,
+            inputs.points,
+            inputs.loop,
+            outer=outer_place(outer),
             connect=connect,
             weights=weights_rule(weights, neighbors),
             layout=layout,
             clock=clock,
         )
     uv = mapped.uv[survey.cloud.places]
-    notes = write_uv(out, uv, points=read.points, attributes=carried(read, np.arange(len(uv))))
+    notes = write_uv(out, uv, points=inputs.points, attributes=carried(inputs, inputs.rows))
     doubled = len(coinciding(mapped.uv))
     if report is not None:
         run = {"options": given_options(context), "stages": stages_report(clock)}

@@ -4,7 +4,7 @@ from .loop import read_loop, write_loop
 from .output import check_output, replacing
 from .read import READABLE_SUFFIXES, read_scan
 from .scan import Scan
-from .write import MESH_SUFFIXES, UV_SUFFIXES, write_mesh, write_uv
+from .write import MESH_SUFFIXES, UV_SUFFIXES, write_curves, write_mesh, write_uv
 
 __all__ = [
     "MESH_SUFFIXES",
@@ -15,6 +15,7 @@ __all__ = [
     "read_loop",
     "read_scan",
     "replacing",
+    "write_curves",
     "write_loop",
     "write_mesh",
     "write_uv",

@@ -1,13 +1,13 @@
 """One door for every format that can be written; a file is replaced whole or not at all."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TypeAlias, TypeVar
 
 import numpy as np
 
 from ..errors import FormatError, InputError
-from ..typing import UV, Attributes, Points, Triangles
+from ..typing import UV, Attributes, Loop, Points, Triangles
 from .arrays import write_npz
 from .distinct import distinct_rows
 from .glb import write_glb
@@ -60,6 +60,40 @@ def write_mesh(
     kept = _checked(points, uv, attributes)
     with replacing(path) as temporary:
         return write(temporary, points, triangles, uv, kept)
+
+
+def write_curves(
+    path: AnyPath, points: Points, loops: Sequence[Loop], *, attributes: Attributes | None = None
+) -> list[str]:
+    """Write points and the closed polylines that run through some of them, as PLY with an edge element.
+
+    Parameters
+    ----------
+    path
+        A PLY file; one that exists is replaced.
+    points
+        (n, 3), all of them: vertex i is point i.
+    loops
+        Point indices of each polyline, in order, not closed.
+    attributes
+        Further values, each (n,), by name.
+
+    Returns
+    -------
+    One sentence for each thing that the format cannot hold; mostly none.
+
+    Raises
+    ------
+    FormatError
+        The file cannot be written.
+    InputError
+        An array has not one row for each point.
+    """
+    _writer(path, {".ply": write_ply})
+    kept = _checked(points, None, attributes)
+    edges = [np.column_stack([loop, np.roll(loop, -1)]) for loop in loops]
+    with replacing(path) as temporary, temporary.open("wb") as file:
+        return write_ply(file, points, kept, edges=np.concatenate([np.empty((0, 2), np.int64), *edges]))
 
 
 def write_uv(path: AnyPath, uv: UV, *, points: Points | None = None, attributes: Attributes | None = None) -> list[str]:
@@ -122,7 +156,7 @@ def _checked(points: Points | None, uv: UV | None, attributes: Attributes | None
 
 def _mesh_ply(path: Path, points: Points, triangles: Triangles, uv: UV | None, attributes: Attributes) -> list[str]:
     with path.open("wb") as file:
-        return write_ply(file, points, _columns(uv) | attributes, triangles)
+        return write_ply(file, points, _columns(uv) | attributes, triangles=triangles)
 
 
 def _mesh_obj(path: Path, points: Points, triangles: Triangles, uv: UV | None, attributes: Attributes) -> list[str]:
@@ -180,7 +214,7 @@ def _uv_npz(path: Path, uv: UV, points: Points | None, attributes: Attributes) -
 def _uv_ply(path: Path, uv: UV, points: Points | None, attributes: Attributes) -> list[str]:
     flat = np.column_stack([uv, np.zeros(len(uv))])
     with path.open("wb") as file:
-        return write_ply(file, flat if points is None else points, _columns(uv) | attributes, None)
+        return write_ply(file, flat if points is None else points, _columns(uv) | attributes)
 
 
 def _columns(uv: UV | None) -> Attributes:

@@ -1,4 +1,4 @@
-"""A mesh to PLY: binary, little endian, double precision."""
+"""A mesh or curves to PLY: binary, little endian, double precision."""
 
 from collections.abc import Iterator
 from typing import Any, BinaryIO
@@ -6,14 +6,21 @@ from typing import Any, BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
-from ...typing import Attributes, Points, Triangles
+from ...typing import Attributes, Indices, Points, Triangles
 from .header import TYPES
 
 _TYPE_NAMES = {code: name for name, code in TYPES.items()}
 _BLOCK = 1 << 17
 
 
-def write_ply(file: BinaryIO, points: Points, attributes: Attributes, triangles: Triangles | None) -> list[str]:
+def write_ply(
+    file: BinaryIO,
+    points: Points,
+    attributes: Attributes,
+    *,
+    triangles: Triangles | None = None,
+    edges: Indices | None = None,
+) -> list[str]:
     """Write x, y, z, then the attributes in the types that PLY has; return a sentence on each that is rounded."""
     notes: list[str] = []
     columns = dict(zip("xyz", np.asarray(points, np.float64).T, strict=True))
@@ -29,6 +36,8 @@ def write_ply(file: BinaryIO, points: Points, attributes: Attributes, triangles:
     header += [f"property {_TYPE_NAMES[column.dtype.str[1:]]} {name}" for name, column in columns.items()]
     if triangles is not None:
         header += [f"element face {len(triangles)}", "property list uchar int vertex_indices"]
+    if edges is not None:
+        header += [f"element edge {len(edges)}", "property int vertex1", "property int vertex2"]
     file.write("\n".join([*header, "end_header", ""]).encode())
     for start, stop in _blocks(len(points)):
         rows = np.empty(stop - start, dtype)
@@ -40,6 +49,8 @@ def write_ply(file: BinaryIO, points: Points, attributes: Attributes, triangles:
         faces["count"] = 3
         faces["corners"] = triangles[start:stop] if triangles is not None else 0
         file.write(faces.tobytes())
+    if edges is not None:
+        file.write(edges.astype("<i4").tobytes())
     return notes
 
 
