@@ -5,10 +5,12 @@ import scipy.sparse as sp
 from numpy.typing import ArrayLike
 from scipy.spatial import cKDTree
 
-from .._check import check_points
+from .._check import check_place, check_points
 from ..errors import InputError
 from ..solve import solve_fixed
 from ..typing import Floats, Indices, Loop, Points
+
+PLANES = 12
 
 
 def order_by_halves(points: ArrayLike, members: ArrayLike, *, normal: ArrayLike | None = None, k: int = 8) -> Loop:
@@ -16,7 +18,8 @@ def order_by_halves(points: ArrayLike, members: ArrayLike, *, normal: ArrayLike 
 
     In each half the two end points next to the plane go to 0 and 1, and every other point to a convex combination of
     its `k` nearest in the same half, by reciprocal distances; the order of these parameters is the order of the
-    points. Suits a boundary that the plane cuts exactly twice.
+    points. Suits a boundary that some plane through its middle cuts exactly twice: if none is given, planes in steps of
+    15 degrees about the shortest principal axis are tried, and the shortest loop is taken.
 
     Parameters
     ----------
@@ -24,7 +27,7 @@ def order_by_halves(points: ArrayLike, members: ArrayLike, *, normal: ArrayLike 
     members : (b,) int array
         Boundary points, in any order.
     normal : (3,) array, optional
-        Normal of the plane through the members' centroid; their longest principal axis, if not given.
+        Normal of the plane through the members' centroid; found, if not given.
     k : int
         Neighbours along the boundary.
 
@@ -53,8 +56,22 @@ def order_by_halves(points: ArrayLike, members: ArrayLike, *, normal: ArrayLike 
     cloud = check_points(points)
     chosen = np.asarray(members, dtype=np.int64)
     centred = cloud[chosen] - cloud[chosen].mean(axis=0)
-    axis = np.linalg.svd(centred, full_matrices=False)[2][0] if normal is None else np.asarray(normal, dtype=np.float64)
-    height = centred @ axis
+    if normal is not None:
+        return _order_by_plane(cloud, chosen, centred @ check_place(normal), k)
+    first, second = np.linalg.svd(centred, full_matrices=False)[2][:2]
+    loops, failures = list[Loop](), list[InputError]()
+    for angle in np.arange(PLANES) * np.pi / PLANES:
+        try:
+            loops.append(_order_by_plane(cloud, chosen, centred @ (np.cos(angle) * first + np.sin(angle) * second), k))
+        except InputError as failure:
+            failures.append(failure)
+    if not loops:
+        raise failures[0]
+    return min(loops, key=lambda loop: float(np.linalg.norm(cloud[loop] - cloud[np.roll(loop, -1)], axis=1).sum()))
+
+
+def _order_by_plane(cloud: Points, chosen: Indices, height: Floats, k: int) -> Loop:
+    """Order the members above and below a plane, and join the halves."""
     upper = _order_half(cloud, chosen[height >= 0.0], height[height >= 0.0], k)
     lower = _order_half(cloud, chosen[height < 0.0], height[height < 0.0], k)
     gap = np.linalg.norm(cloud[upper[-1]] - cloud[lower[[0, -1]]], axis=1)
