@@ -31,12 +31,14 @@ format: .venv/dev  ## format and sort imports
 	$(BIN)/ruff format .
 	$(BIN)/ruff check --fix .
 
-bench: .venv/dev  ## reproduce the paper's tables and time the stages
+bench: .venv/dev  ## reproduce the paper's tables, measure the boundaries found, time the stages
 	$(BIN)/python benchmarks/paper.py
+	$(BIN)/python benchmarks/boundaries.py
 	$(BIN)/python benchmarks/stages.py
 
-docs: .venv/dev  ## draw the paper's figures into docs/figures
+docs: .venv/dev  ## draw the pictures of the docs
 	$(BIN)/python benchmarks/figures.py docs/figures
+	$(BIN)/python benchmarks/boundaries.py --picture docs/figures/boundary.png
 
 clean:  ## remove everything that make has built
 	rm -rf .venv demo build

@@ -12,6 +12,7 @@ import argparse
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from multiprocessing import Pool
+from pathlib import Path
 
 import numpy as np
 import scipy.sparse as sp
@@ -29,6 +30,7 @@ from pointchart import (
     shapes,
 )
 from pointchart.gaps import SECOND_BOUNDARY
+from pointchart.picture import draw_boundary
 from pointchart.shapes import Shape
 from pointchart.typing import Floats, Indices, Loop, Mask, Points, Triangles
 
@@ -227,11 +229,24 @@ def run(case: Case) -> tuple[Case, str, float, list[tuple[float, float]]]:
     return case, "wrong" if near < 0.8 or far > 0.002 else "disc", near, detected
 
 
+def draw_one(path: Path) -> None:
+    """Draw what is found on a face with gaps."""
+    points = Case("face", seed=3, noise=0.125, n_gaps=3).make()[1].points
+    found = find_boundary(points)
+    draw_boundary(path, points, found.scores.total, [candidate.loop for candidate in found.candidates])
+    print(path)
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--seeds", type=int, nargs="+", default=[1, 2], help="of the simulations")
+    parser.add_argument("--picture", type=Path, help="only draw the boundary and the gaps of one of them")
+    options = parser.parse_args()
+    if options.picture is not None:
+        draw_one(options.picture)
+        return
     with Pool(2) as pool:
-        results = pool.map(run, list(cases(parser.parse_args().seeds)), chunksize=4)
+        results = pool.map(run, list(cases(options.seeds)), chunksize=4)
     rows = list(dict.fromkeys(case.row for case, *_ in results))
     print(f"\n{len(results)} cases\n")
     print("| what | cases | disc | refused, rightly | refused | wrong | near, mean | near, least |")

@@ -7,9 +7,9 @@ from pointchart import shapes
 def main() -> int:
     """Return the Euler characteristic of the mesh: 1, that of a disc."""
     points = pc.prepare(shapes.sculpture(1500).points).points
-    around = pc.nearest(points, 20)
-    star = pc.delaunay_star(points, around)
-    loop = pc.find_boundary(points, around=around).loop
+    vicinity = pc.explore(points)
+    star = pc.delaunay_star(points, vicinity.around)
+    loop = pc.find_boundary(points, vicinity=vicinity).loop
     first = pc.parameterize(points, loop, pc.chord_length_on_circle(points, loop), star)
     print(f"{first.solution.unknowns} unknowns solved, residual {first.solution.residual:.0e}")
     mesh = pc.swap_to_delaunay(points, pc.triangulate(first.uv, first.loop))

@@ -12,6 +12,7 @@ SQUARE = np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]])
 SHEET = shapes.grid(12, 9)
 RIM = SHEET.boundary
 NO_FACES = np.empty((0, 3), np.int64)
+FAR = shapes.grid(6, 5).points + np.array([0, 0, 50])
 
 
 def with_values(points, *places):
@@ -68,9 +69,9 @@ def refused(run, folder):
 def misused(run, folder):
     """Run a command whose options are wrong usage: exit 2, no file written; return what it says on one line."""
 
-    def call(command, *words):
+    def call(command, *words, out="out.ply"):
         before = sorted(folder.rglob("*"))
-        code, err = run(command, *words, "-o", "out.ply")
+        code, err = run(command, *words, "-o", out)
         assert code == 2
         assert sorted(folder.rglob("*")) == before
         return " ".join(err.replace("\u2502", " ").split())
@@ -83,6 +84,14 @@ def sheet(folder):
     """Write a scan of a grid to sheet.ply."""
     write_mesh(folder / "sheet.ply", SHEET.points, NO_FACES)
     return "sheet.ply"
+
+
+def places_named(sentence):
+    """Return each point that a sentence names together with its place: (row, [x, y, z])."""
+    return [
+        (int(row), [float(x) for x in place.split(", ")])
+        for row, place in re.findall(r"point (\d+) at \(([^)]*)\)", sentence)
+    ]
 
 
 def texts(points):
@@ -133,10 +142,11 @@ def test_fewer_than_four_points_are_refused(refused, folder, command, n):
     assert said == f"the scan has {n} points; a surface patch needs at least 4"
 
 
+@pytest.mark.parametrize("words", [[], ["--component", "largest"]], ids=["whole", "largest"])
 @pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf])
-def test_broken_coordinates_are_counted_and_the_first_is_named(refused, folder, value):
+def test_broken_coordinates_are_counted_and_the_first_is_named(refused, folder, value, words):
     np.save(folder / "scan.npy", with_values(SHEET.points, (17, 0, value), (40, 2, value), (40, 1, value)))
-    said = refused("mesh", "scan.npy")
+    said = refused("mesh", "scan.npy", *words)
     assert said == "2 points are NaN or infinite, the first at index 17; remove them from the scan"
 
 
@@ -171,11 +181,13 @@ def test_coordinates_in_millimetres_far_from_the_origin_are_no_trouble(run, fold
 # Surfaces
 
 
-def test_two_parts_are_refused_with_their_sizes(refused, folder):
-    np.save(folder / "scan.npy", np.r_[SHEET.points, shapes.grid(6, 5).points + np.array([0, 0, 50])])
+def test_two_parts_are_refused_with_their_sizes_and_a_point_of_each(refused, folder):
+    np.save(folder / "scan.npy", np.r_[shapes.grid(6, 5).points + np.array([0, 0, 50]), SHEET.points])
     said = refused("mesh", "scan.npy")
     assert said.startswith("the points fall into 2 separate parts, of 108 and 30 points")
-    assert said.endswith("mesh the parts one by one, or remove the small ones")
+    assert said.endswith("in one piece; take the largest (mesh has --component largest), or the parts one by one")
+    in_large, in_small = map(int, re.search(r"\(some of them: (\d+), (\d+)\)", said).groups())
+    assert in_small < 30 <= in_large < 138
 
 
 @pytest.mark.parametrize("closed", [shapes.sphere(500), shapes.torus(48, 20)], ids=["sphere", "torus"])
@@ -188,10 +200,24 @@ def test_a_closed_surface_is_refused(refused, folder, closed, command):
     assert said.endswith("lie on a closed surface; give the boundary, or cut the scan open")
 
 
-def test_an_annulus_is_refused_with_both_loops(refused, folder):
-    np.save(folder / "scan.npy", shapes.annulus().points)
-    said = refused("mesh", "scan.npy")
-    assert said.startswith("the surface has a second boundary, so it is no disc: besides the loop of 96 points")
+@pytest.mark.parametrize("words", [[], ["--component", "largest"]], ids=["alone", "largest of two parts"])
+def test_an_annulus_is_refused_with_both_loops_and_four_remedies(refused, folder, words):
+    ring = shapes.shuffle(shapes.annulus(), seed=2)
+    points = ring.points if not words else np.r_[FAR, ring.points]
+    np.save(folder / "scan.npy", points)
+    said = refused("mesh", "scan.npy", *words)
+    assert said.startswith(
+        "the surface has a second boundary, so it is no disc: besides the loop of 96 points, 6.282 long, through point "
+    )
+    assert said.endswith(
+        "; bridge it (--holes bridge), leave it open (--holes open), say which is the outer one (--outer x,y,z), "
+        "or give the boundary (--boundary)"
+    )
+    (here, _), (there, _) = named = places_named(said)
+    assert [np.linalg.norm(points[row]) for row in (here, there)] == pytest.approx([1, 0.5])
+    for row, place in named:
+        assert place == pytest.approx(points[row], abs=1e-5)
+    assert float(re.search(r"there is one of 96 points, ([0-9.]+) long", said)[1]) == pytest.approx(np.pi, rel=0.01)
 
 
 def test_a_moebius_strip_is_refused(refused, folder):
@@ -261,6 +287,30 @@ def test_a_boundary_file_may_run_either_way_start_anywhere_and_be_closed(run, fo
     assert run("mesh", sheet, "-o", "out.ply", "--boundary", "loop.txt", "--quiet") == (0, "")
 
 
+def test_boundary_points_outside_the_largest_part_are_named_by_the_rows_of_the_file(refused, folder):
+    np.save(folder / "scan.npy", np.r_[FAR, SHEET.points])
+    (folder / "loop.txt").write_text("".join(f"{i}\n" for i in [5, *(RIM + len(FAR)), 7]))
+    assert refused("mesh", "scan.npy", "--component", "largest", "--boundary", "loop.txt") == (
+        "boundary points 5, 7 are not among the 108 points of the largest part; name points of it"
+    )
+
+
+@pytest.mark.parametrize("entries", [[138], [5, 138], [99999]])
+def test_boundary_entries_that_name_no_point_are_named_whatever_is_left_out(refused, folder, entries):
+    np.save(folder / "scan.npy", np.r_[FAR, SHEET.points])
+    (folder / "loop.txt").write_text("".join(f"{i}\n" for i in [*(RIM + len(FAR)), *entries]))
+    said = refused("mesh", "scan.npy", "--component", "largest", "--boundary", "loop.txt")
+    assert re.search(rf"\b{entries[-1]}\b", said)
+
+
+def test_a_boundary_file_is_read_in_the_numbering_of_the_file_whatever_is_left_out(refused, folder):
+    np.save(folder / "scan.npy", np.r_[FAR, SHEET.points])
+    loop = RIM + len(FAR)
+    (folder / "loop.txt").write_text("".join(f"{i}\n" for i in [*loop[:9], loop[2], *loop[9:]]))
+    said = refused("mesh", "scan.npy", "--component", "largest", "--boundary", "loop.txt")
+    assert said.startswith(f"boundary points {loop[2]} are named more than once")
+
+
 def disorders(loop):
     """Return a loop with its points in a wrong order, in several ways."""
     far = loop.copy()
@@ -315,6 +365,20 @@ def test_too_few_neighbours_leave_points_without_a_path(refused, folder):
     assert "have no path to the boundary, so their position is undetermined; use a larger neighbourhood" in said
 
 
+def test_points_without_a_path_are_named_by_the_rows_of_the_file_whatever_is_left_out(refused, folder):
+    shape = shapes.relief(300, seed=2)
+    np.save(folder / "scan.npy", np.r_[FAR, shape.points])
+    options = ["--neighbors", "nearest", "-k", 2, "--weights", "uniform"]
+    said = refused("mesh", "scan.npy", "--component", "largest", *options)
+    named = np.array([int(row) for row in re.findall(r"\b\d+\b", said.split(" and ")[0])])
+    inner = np.setdiff1d(np.arange(300), shape.boundary) + len(FAR)
+    assert said.startswith("interior points ")
+    assert len(named) == 3
+    assert np.isin(named, inner).all()
+    np.save(folder / "scan.npy", shape.points)
+    assert refused("mesh", "scan.npy", *options).startswith(f"interior points {', '.join(map(str, named - len(FAR)))}")
+
+
 def test_points_that_hang_on_one_point_are_named(refused, folder):
     shape = shapes.disc(400, seed=1)
     tuft = shape.points[40] + [[0, 0, 0.01], [0.002, 0, 0.02], [0, 0.002, 0.03], [0.002, 0, 0.035]]
@@ -335,15 +399,57 @@ def test_points_that_hang_on_one_point_are_named(refused, folder):
         (["--corners", "0,1,2,3"], "--corners needs --domain square"),
         (["--domain", "square", "--corners", "0,1,2"], "--corners is '0,1,2'; four boundary points are needed"),
         (["--domain", "square", "--corners", "a,b,c,d"], "--corners is 'a,b,c,d'; four boundary points are needed"),
+        (["--holes", "closed"], "--holes"),
+        (["--component", "2"], "--component"),
     ],
 )
 def test_options_that_do_not_fit_are_wrong_usage(misused, sheet, words, said):
     assert said in misused("mesh", sheet, *words)
 
 
-def test_corners_off_the_boundary_are_refused(refused, sheet):
-    said = refused("mesh", sheet, "--domain", "square", "--corners", "0,11,107,40")
-    assert "corners 40 are not on the boundary" in said
+@pytest.mark.parametrize("place", ["", "1,2", "1,2,3,4", "1;2;3", "x,y,z", "1,,3", "0.5,-12,3.25m"])
+@pytest.mark.parametrize("command", ["mesh", "param", "boundary"])
+def test_a_place_that_is_not_three_numbers_is_wrong_usage(misused, sheet, command, place):
+    out = {"mesh": "out.ply", "param": "out.csv", "boundary": "out.txt"}[command]
+    said = misused(command, sheet, "--outer", place, out=out)
+    assert f"--outer is '{place}'; a place is needed, such as 0.5,-12,3.25" in said
+
+
+@pytest.mark.parametrize("place", ["nan,0,0", "0,inf,0", "0,0,-inf"])
+def test_a_place_that_is_not_finite_is_refused(misused, sheet, place):
+    said = misused("mesh", sheet, "--outer", place, out="out.ply")
+    assert f"--outer is '{place}'; a place is needed" in said
+
+
+@pytest.mark.parametrize("command", ["mesh", "param"])
+def test_a_boundary_and_a_place_of_it_exclude_each_other(misused, folder, sheet, command):
+    (folder / "loop.txt").write_text("".join(f"{i}\n" for i in RIM))
+    out = {"mesh": "out.ply", "param": "out.csv"}[command]
+    said = misused(command, sheet, "--boundary", "loop.txt", "--outer", "0,0,0", out=out)
+    assert "--boundary and --outer exclude each other" in said
+
+
+@pytest.mark.parametrize("command", ["mesh", "param"])
+@pytest.mark.parametrize("repeated", [0, 20], ids=["as it is", "with repeated points"])
+def test_corners_off_the_boundary_are_refused(refused, folder, command, repeated):
+    np.save(folder / "scan.npy", np.r_[np.repeat(SHEET.points[[40]], repeated, axis=0), SHEET.points])
+    corners = ",".join(str(i + repeated) for i in (0, 11, 107, 94))
+    out = {"mesh": "out.ply", "param": "out.csv"}[command]
+    said = refused(command, "scan.npy", "--domain", "square", "--corners", corners, out=out)
+    assert said == f"corners {94 + repeated} are not on the boundary; choose boundary points"
+
+
+def test_corners_off_the_boundary_are_named_by_the_rows_of_the_file_whatever_is_left_out(refused, folder):
+    np.save(folder / "scan.npy", np.r_[FAR, SHEET.points])
+    words = ["--component", "largest", "--domain", "square", "--corners", "30,41,137,70"]
+    assert refused("mesh", "scan.npy", *words) == "corners 70 are not on the boundary; choose boundary points"
+
+
+@pytest.mark.parametrize("holes", [-1, "one", 0.5])
+def test_a_number_of_holes_that_is_none_is_wrong_usage(run, sheet, holes):
+    code, err = run("check", sheet, "--holes", holes)
+    assert code == 2
+    assert "--holes" in err
 
 
 def test_a_report_never_replaces_what_is_checked(run, folder, sheet):
@@ -370,7 +476,7 @@ def test_the_output_must_not_be_the_input(run, folder, sheet):
     for out in (sheet, folder / sheet, f"./{sheet}"):
         code, err = run("mesh", sheet, "-o", out)
         assert code == 1
-        assert "the output is the input sheet.ply, which would be lost; choose another output" in err
+        assert "the output is also sheet.ply, which would be lost; choose another output" in err
     assert (folder / sheet).read_bytes() == before
 
 
@@ -379,7 +485,7 @@ def test_the_output_must_not_be_the_boundary_nor_the_report_an_input(run, folder
     before = (folder / "loop.txt").read_bytes()
     code, err = run("param", sheet, "--boundary", "loop.txt", "-o", "loop.txt")
     assert code == 1
-    assert "the output is the input loop.txt" in err
+    assert "the output is also loop.txt" in err
     assert (folder / "loop.txt").read_bytes() == before
 
 
@@ -412,6 +518,79 @@ def test_a_report_that_cannot_be_written_is_refused_before_the_run(run, folder, 
     assert sorted(path.name for path in folder.iterdir()) == [sheet]
 
 
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["--ply", "none/out.ply"], "the folder .*none does not exist; create it first"),
+        (["--picture", "none/out.png"], "the folder .*none does not exist; create it first"),
+        (["--ply", "out.obj"], r"the suffix '.obj' cannot be written here; choose one of .ply"),
+        (["--picture", "out.jpg"], r"the suffix '.jpg' cannot be written here; choose one of .png"),
+        (["--ply", "folder.ply"], "this is a folder; name a file in it"),
+        (["--ply", "sheet.ply"], "sheet.ply: the output is also sheet.ply, which would be lost"),
+        (["--ply", "link.ply"], "link.ply: the output is also sheet.ply, which would be lost"),
+        (["--picture", "link.png"], "link.png: the output is also sheet.ply, which would be lost"),
+        (["--ply", "twin.ply"], "twin.ply: the output is .*loop.txt, which would be lost"),
+        (["--picture", "twin.png"], "twin.png: the output is .*loop.txt, which would be lost"),
+    ],
+)
+def test_a_boundary_run_whose_outputs_cannot_all_be_written_writes_none(run, folder, sheet, words, said):
+    (folder / "loop.txt").write_text("old")
+    (folder / "folder.ply").mkdir()
+    for suffix in (".ply", ".png"):
+        (folder / f"link{suffix}").symlink_to(folder / sheet)
+        (folder / f"twin{suffix}").hardlink_to(folder / "loop.txt")
+    before = {path: path.is_file() and path.read_bytes() for path in folder.rglob("*")}
+    others = {"--ply": ["--picture", "other.png"], "--picture": ["--ply", "other.ply"]}[words[0]]
+    code, err = run("boundary", sheet, "-o", "loop.txt", *words, *others)
+    assert code == 1
+    assert len(err.splitlines()) == 1
+    assert re.search(said, err)
+    assert {path: path.is_file() and path.read_bytes() for path in folder.rglob("*")} == before
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["mesh", "-o", "twin.ply", "--report", "twin.json"],
+        ["boundary", "-o", "out.txt", "--ply", "twin.ply", "--picture", "twin.png"],
+    ],
+)
+def test_two_outputs_that_are_one_file_are_refused(run, folder, sheet, words):
+    (folder / "old").write_text("old")
+    for suffix in ("ply", "png", "json"):
+        (folder / f"twin.{suffix}").symlink_to(folder / "old")
+    command, *options = words
+    code, err = run(command, sheet, *options, "--quiet")
+    assert code == 1
+    assert re.search(r"twin\.\w+: the output is .*twin\.\w+, which would be lost", err)
+    assert (folder / "old").read_text() == "old"
+    assert not (folder / "out.txt").exists()
+
+
+def test_a_boundary_file_must_not_replace_the_scan(run, folder):
+    (folder / "scan.txt").write_text(texts(SHEET.points))
+    code, err = run("boundary", "scan.txt", "-o", "scan.txt", "--ply", "out.ply")
+    assert code == 1
+    assert "scan.txt: the output is also scan.txt, which would be lost; choose another output" in err
+    assert [path.name for path in folder.iterdir()] == ["scan.txt"]
+
+
+def test_a_surface_without_a_boundary_leaves_no_picture_and_no_curves(refused, folder):
+    np.save(folder / "scan.npy", shapes.sphere(400).points)
+    (folder / "out.ply").write_text("old")
+    words = ["--picture", "out.png", "--ply", "out.ply"]
+    assert refused("boundary", "scan.npy", *words, out="out.txt").startswith("no boundary was found: ")
+    assert (folder / "out.ply").read_text() == "old"
+
+
+def test_a_mesh_that_its_format_cannot_hold_leaves_no_report(run, folder):
+    np.save(folder / "scan.npy", 1e-9 * shapes.disc(300, seed=1).points + [1, 0, 0])
+    code, err = run("mesh", "scan.npy", "-o", "out.stl", "--report", "run.json", "--quiet")
+    assert code == 1
+    assert "STL holds single precision, which makes " in err
+    assert [path.name for path in folder.iterdir()] == ["scan.npy"]
+
+
 @pytest.mark.skipif(os.name != "posix" or os.geteuid() == 0, reason="the superuser may write everywhere")
 def test_a_folder_without_permission_is_refused_before_the_run(run, folder, sheet):
     (folder / "locked").mkdir(mode=0o500)
@@ -420,7 +599,25 @@ def test_a_folder_without_permission_is_refused_before_the_run(run, folder, shee
     assert "there is no permission to write" in err
 
 
-@pytest.mark.parametrize("words", [["mesh", "-o", "out.ply"], ["check"]])
+@pytest.mark.skipif(os.name != "posix" or os.geteuid() == 0, reason="the superuser may write everywhere")
+@pytest.mark.parametrize("words", [["--ply", "old.ply"], ["--picture", "old.png"]])
+def test_a_boundary_run_with_a_read_only_output_writes_none(run, folder, sheet, words):
+    (folder / words[1]).write_text("old")
+    (folder / words[1]).chmod(0o400)
+    code, err = run("boundary", sheet, "-o", "loop.txt", *words)
+    assert code == 1
+    assert f"{words[1]}: the file exists and is read-only; remove it or choose another output" in err
+    assert sorted(path.name for path in folder.iterdir()) == [words[1], sheet]
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["mesh", "-o", "out.ply", "--report", "run.json"],
+        ["check", "--report", "run.json"],
+        ["boundary", "-o", "out.txt", "--ply", "out.ply", "--picture", "out.png"],
+    ],
+)
 def test_a_full_disk_or_a_broken_file_ends_in_one_sentence(run, folder, sheet, monkeypatch, words):
     def full(*_):
         raise OSError(28, "No space left on device")
@@ -428,7 +625,7 @@ def test_a_full_disk_or_a_broken_file_ends_in_one_sentence(run, folder, sheet, m
     run("mesh", sheet, "-o", "mesh.ply", "--quiet")
     monkeypatch.setattr("os.replace", full)
     command, *options = words
-    code, err = run(command, "mesh.ply", *options, "--report", "run.json", "--quiet")
+    code, err = run(command, "mesh.ply", *options, "--quiet")
     assert code == 1
     assert "it cannot be written (No space left on device); free the disk or choose another output" in err
     assert sorted(path.name for path in folder.iterdir()) == ["mesh.ply", sheet]

@@ -282,3 +282,101 @@ def test_positive_triangles_that_overlap_are_not_one_to_one():
 def test_a_simple_boundary_that_is_not_convex_is_one_to_one():
     points, triangles, uv = winding_fan(0.7, 20)
     assert certify(points, triangles, uv=uv).is_one_to_one
+
+
+# Holes
+
+
+@pytest.mark.parametrize("n_gaps", [1, 2, 3])
+def test_a_disc_with_holes_is_as_asked_for_with_that_many_and_with_no_other_number(n_gaps):
+    shape = shapes.pierce(disc(1500, seed=1), n_gaps=n_gaps, seed=1)
+    for holes in range(5):
+        proof = certify(shape.points, shape.triangles, uv=shape.uv, loop=shape.boundary, holes=holes)
+        assert proof.is_as_asked == proof.is_one_to_one == (holes == n_gaps)
+        assert not proof.is_disc
+        assert (proof.euler, proof.boundary_loops, proof.holes) == (1 - n_gaps, 1 + n_gaps, holes)
+        if holes != n_gaps:
+            assert proof.faults == (
+                f"its Euler characteristic is {1 - n_gaps} instead of {1 - holes}",
+                f"it has {1 + n_gaps} boundary loops instead of {1 + holes}",
+            )
+            assert proof.simple_uv_boundary is None
+
+
+def test_a_disc_without_holes_is_not_the_one_with_a_hole_that_was_asked_for(any_disc):
+    proof = certify(any_disc.points, any_disc.triangles, holes=1)
+    assert not proof.is_as_asked
+    assert not proof.is_disc
+    assert proof.faults == (
+        "its Euler characteristic is 1 instead of 0",
+        "it has 1 boundary loops instead of 2",
+    )
+
+
+def test_the_loop_asked_for_may_be_any_rim_but_no_mixture_of_two():
+    ring = shapes.annulus(20, 4)
+    inner, outer = ring.loops
+    for loop in ring.loops:
+        assert certify(ring.points, ring.triangles, loop=loop, holes=1).is_as_asked
+    for loop in (np.r_[inner[:10], outer[10:]], outer[:-1]):
+        found = certify(ring.points, ring.triangles, loop=loop, holes=1)
+        assert found.faults == ("its boundary is not the loop given",)
+
+
+def of_ring(uv_of_inner):
+    """Certify an annulus whose inner rim is mapped as told and whose other points lie where they are."""
+    ring = shapes.annulus(24, 4)
+    uv = ring.uv.copy()
+    on_inner = np.linalg.norm(uv, axis=1) < 0.51
+    uv[on_inner] = uv_of_inner(uv[on_inner])
+    return certify(ring.points, ring.triangles, uv=uv, holes=1)
+
+
+def test_the_plane_itself_maps_a_ring_one_to_one():
+    proof = of_ring(lambda uv: uv)
+    assert proof.simple_uv_boundary is True
+    assert proof.is_one_to_one
+
+
+@pytest.mark.parametrize(
+    "uv_of_inner",
+    [lambda uv: uv * [-1, 1], lambda uv: uv[::-1], lambda uv: uv * [1, -0.5] + [0.2, 0]],
+    ids=["mirrored", "in opposite order", "mirrored and moved"],
+)
+def test_a_hole_that_runs_anticlockwise_is_no_hole(uv_of_inner):
+    proof = of_ring(uv_of_inner)
+    assert proof.is_as_asked
+    assert proof.simple_uv_boundary is False
+    assert not proof.is_one_to_one
+
+
+def test_a_hole_whose_rim_crosses_itself_is_noticed():
+    exchanged = np.arange(24)
+    exchanged[[3, 8]] = [8, 3]
+    proof = of_ring(lambda uv: uv[exchanged])
+    assert proof.is_as_asked
+    assert proof.simple_uv_boundary is False
+    assert not proof.is_one_to_one
+
+
+def test_two_rims_that_both_run_clockwise_bound_nothing():
+    ring = shapes.annulus(24, 4)
+    uv = ring.uv * [-1, 1]
+    on_inner = np.linalg.norm(uv, axis=1) < 0.51
+    uv[on_inner] *= [-1, 1]
+    assert certify(ring.points, ring.triangles, uv=uv, holes=1).simple_uv_boundary is False
+
+
+def test_a_mirrored_ring_has_simple_rims_but_folded_triangles():
+    ring = shapes.annulus(24, 4)
+    proof = certify(ring.points, ring.triangles, uv=ring.uv * [-1, 1], holes=1)
+    assert proof.simple_uv_boundary is True
+    assert proof.flat_or_folded_uv == proof.n_triangles
+    assert not proof.is_one_to_one
+
+
+def test_a_ring_turned_inside_out_is_one_to_one_round_its_other_rim():
+    ring = shapes.annulus(24, 4)
+    square = (ring.uv**2).sum(axis=1, keepdims=True)
+    proof = certify(ring.points, ring.triangles, uv=ring.uv / square * [-1, 1], holes=1)
+    assert proof.is_one_to_one

@@ -255,7 +255,7 @@ def test_the_output_may_not_be_an_input(tmp_path, link):
         output.symlink_to(scan)
     else:
         output.hardlink_to(scan)
-    with pytest.raises(InputError, match=r"the output is the input .*scan.ply, which would be lost"):
+    with pytest.raises(InputError, match=r"the output is also .*scan.ply, which would be lost"):
         check_output(output, suffixes=MESH_SUFFIXES, inputs=[tmp_path / "other.txt", scan])
 
 

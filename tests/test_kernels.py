@@ -7,7 +7,7 @@ import pytest
 
 from pointchart import _kernels
 from pointchart._kernels import half_edges as half_edge_kernels
-from pointchart._kernels import rims
+from pointchart._kernels import planes, rims, sides
 from pointchart.mesh import half_edges, one_rings
 from pointchart.neighbors import nearest
 from pointchart.shapes import disc, relief
@@ -46,6 +46,8 @@ ENDS, EDGE_OF = ints((3 * M, 2)), ints((M, 3))
 ENDS = ENDS[: rims.name_edges(SHAPE.triangles, ints(N + 1), ENDS, EDGE_OF)].copy()
 SIDES = ints((len(ENDS), 2)) - 1
 rims.keep_manifold(np.arange(M - 5), EDGE_OF, SIDES)
+RAGGED = ints((len(ENDS), 2)) - 1
+rims.keep_manifold(np.arange(7, M), EDGE_OF, RAGGED)
 
 PENTAGRAM = np.array([[np.cos(t), np.sin(t)] for t in np.arange(5) * 0.8 * np.pi])
 X_ENDS = np.column_stack([PENTAGRAM[:, 0], np.roll(PENTAGRAM[:, 0], -1)])
@@ -99,11 +101,30 @@ CASES = {
     "peel.peel": lambda: (EDGES.origins, EDGES.twins, SUCCESSOR, ints(len(EDGES.origins)), bools(len(SHAPE.triangles))),
     "planes.smallest_eigenvector": lambda: (3.0, 0.2, 0.1, 2.0, -0.3, 1.0),
     "planes.tangent_frame": lambda: (0.48, 0.6, -0.64),
-    "planes.fit_normals": lambda: (SHAPE.points, AROUND.indptr, AROUND.indices, 0, N, np.zeros((N, 3))),
-    "rims.largest_gaps": lambda: (SHAPE.points, NORMALS, AROUND.indptr, AROUND.indices, 0, N, np.zeros(N)),
+    "planes.fit_planes": lambda: (
+        SHAPE.points,
+        AROUND.indptr,
+        AROUND.indices,
+        0.8,
+        0,
+        N,
+        np.zeros((N, 3)),
+        np.zeros(N),
+    ),
     "rims.count_votes": lambda: (STAR.indptr, STAR.indices, STAR.is_open, 0, N, ints(len(STAR.indices))),
     "rims.name_edges": lambda: (SHAPE.triangles, ints(N + 1), ints((3 * M, 2)), ints((M, 3))),
     "rims.keep_manifold": lambda: (np.arange(M)[::-1].copy(), EDGE_OF, ints((len(ENDS), 2)) - 1),
+    "rims.draw_tight": lambda: (
+        SHAPE.points,
+        SHAPE.triangles,
+        ENDS,
+        EDGE_OF,
+        RAGGED.copy(),
+        ~bools(N),
+        bools(N),
+        ints(len(ENDS) + 2 * M),
+        bools(M),
+    ),
     "rims.walk_rims": lambda: (ENDS, EDGE_OF, SIDES, bools(len(ENDS)), ints(len(ENDS) + 1), ints(len(ENDS) + 1)),
     "shape_preserving.shape_preserving": lambda: (
         STAR.local,
@@ -113,6 +134,18 @@ CASES = {
         N,
         np.zeros(len(STAR.indices)),
     ),
+    "sides.survey_sides": lambda: (
+        SHAPE.points,
+        NORMALS,
+        AROUND.indptr,
+        AROUND.indices,
+        0.8,
+        0,
+        N,
+        np.zeros(N),
+        np.zeros(N),
+    ),
+    "sides.star_widths": lambda: (STAR.indptr, STAR.local, STAR.is_open, 0, N, np.zeros(N)),
     "stars.pseudo_angle": lambda: (-0.3, -2.0),
     "stars.turns_left": lambda: (0.0, 0.0, 1.0, 0.0, 2.0, 0.5),
     "stars.is_one_direction": lambda: (1.0, 2.0, 3.0, 6.0),
@@ -189,3 +222,45 @@ def test_a_compiled_kernel_equals_its_python_function(name):
 def test_following_and_preceding_half_edges_are_inverse(h):
     assert half_edge_kernels.following(half_edge_kernels.preceding(h)) == h
     assert half_edge_kernels.following(h) // 3 == h // 3
+
+
+@pytest.mark.parametrize("fading", [0.0, 0.5, 0.8])
+def test_fitted_planes_are_those_of_the_last_singular_vectors_of_the_weighted_neighbours(fading):
+    normals, offsets = np.empty((N, 3)), np.empty(N)
+    planes.fit_planes(SHAPE.points, AROUND.indptr, AROUND.indices, fading, 0, N, normals, offsets)
+    for i in range(N):
+        near = SHAPE.points[np.r_[i, AROUND.indices[AROUND.indptr[i] : AROUND.indptr[i + 1]]]]
+        square = ((near - near[0]) ** 2).sum(axis=1)
+        weight = (1 - fading * square / square.max()) ** 2
+        middle = weight @ near / weight.sum()
+        expected = np.linalg.svd(np.sqrt(weight)[:, None] * (near - middle))[2][2]
+        assert abs(normals[i] @ expected) == pytest.approx(1, abs=1e-12)
+        assert offsets[i] == pytest.approx((middle - near[0]) @ normals[i], abs=1e-12)
+
+
+def test_drawing_tight_takes_each_triangle_with_an_obtuse_corner_off_the_rim():
+    arguments = CASES["rims.draw_tight"]()
+    on_rim, removed = arguments[6], arguments[8]
+    was_on_rim = np.zeros(N, bool)
+    was_on_rim[ENDS[(RAGGED[:, 0] >= 0) & (RAGGED[:, 1] < 0)]] = True
+    rims.draw_tight(*arguments)
+    assert removed.sum() == (on_rim & ~was_on_rim).sum() > 0
+
+
+@pytest.mark.parametrize("k", [3, 4, 6, 12])
+def test_neighbours_on_a_regular_polygon_leave_equal_angles_and_no_offset(k):
+    turn = 2 * np.pi * np.arange(k) / k + 0.1
+    points = np.r_[[[0.0, 0, 0]], np.c_[np.cos(turn), np.sin(turn), 0 * turn]]
+    angle, offset = np.empty(1), np.empty(1)
+    up = np.array([[0.0, 0, 1]])
+    sides.survey_sides(points, up, np.array([0, k]), np.arange(1, k + 1), 0.8, 0, 1, angle, offset)
+    assert angle[0] == pytest.approx(2 * np.pi / k)
+    assert offset[0] == pytest.approx(0, abs=1e-15)
+
+
+def test_a_point_that_has_no_flat_neighbour_is_free_all_round():
+    points = np.array([[0.0, 0, 0], [0, 0, 1], [0.1, 0, -1]])
+    angle, offset = np.empty(1), np.empty(1)
+    up = np.array([[0.0, 0, 1]])
+    sides.survey_sides(points, up, np.array([0, 2]), np.array([1, 2]), 0.8, 0, 1, angle, offset)
+    assert (angle[0], offset[0]) == (2 * np.pi, 1.0)

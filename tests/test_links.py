@@ -4,10 +4,10 @@ from hypothesis import given, settings
 from strategies import clouds
 
 from pointchart.errors import InputError
-from pointchart.links import FAR_TRUST, LONE_TRUST, distrust_far, is_near, link_stars
+from pointchart.links import FAR_TRUST, LONE_TRUST, disputed_links, distrust_far, is_near, link_stars
 from pointchart.mesh import one_rings
 from pointchart.neighbors import Neighborhoods, nearest
-from pointchart.shapes import add_noise, disc, fold
+from pointchart.shapes import add_noise, disc, fold, grid, relief
 from pointchart.stars import delaunay_star
 
 
@@ -101,3 +101,52 @@ def test_far_links_lose_their_trust_and_the_others_keep_it():
     assert np.array_equal(judged.trust[near], links.trust[near])
     assert np.allclose(judged.trust[~near], FAR_TRUST * links.trust[~near], rtol=1e-15)
     assert np.array_equal(judged.neighborhoods.indices, links.neighborhoods.indices)
+
+
+# Disputes
+
+
+@settings(max_examples=20)
+@given(clouds())
+def test_a_link_is_disputed_exactly_where_no_triangle_of_its_star_on_it_is_held_by_another(points):
+    star = delaunay_star(points, nearest(points, 15))
+    triangles = stars_triangles(star)
+    held = {t for t in triangles if triangles.count(t) > 1}
+    expected = []
+    for i in range(star.n_points):
+        row = star.indices[star.indptr[i] : star.indptr[i + 1]].tolist()
+        ends = zip(row, row[1:] + ([] if star.is_open[i] else row[:1]), strict=False)
+        agreed = {end for pair in ends if frozenset((i, *pair)) in held for end in pair}
+        expected.append(len(set(row) - agreed))
+    assert disputed_links(star).tolist() == expected
+
+
+@settings(max_examples=20)
+@given(clouds())
+def test_a_link_keeps_full_trust_unless_both_its_stars_dispute_it(points):
+    star = delaunay_star(points, nearest(points, 15))
+    links = link_stars(star)
+    settled = disputed_links(star) == 0
+    both = settled[links.neighborhoods.rows] & settled[links.neighborhoods.indices]
+    assert (links.trust[both] == 1.0).all()
+
+
+def test_inside_a_plane_no_link_is_disputed():
+    shape = disc(300, seed=5)
+    star = delaunay_star(shape.points, nearest(shape.points, 24))
+    assert disputed_links(star)[~star.is_open].sum() == 0
+
+
+def test_noise_and_close_sheets_raise_the_number_of_disputed_links():
+    smooth, noisy = (add_noise(relief(600, seed=2), sigma_in_spacings=sigma).points for sigma in (0.05, 0.5))
+    flat, folded = (
+        add_noise(shape, sigma_in_spacings=0.05).points for shape in (grid(41, 15), fold(1.2, nx=41, ny=15))
+    )
+    for clear, messy in ((smooth, noisy), (flat, folded)):
+        few, many = (disputed_links(delaunay_star(points, nearest(points, 20))).sum() for points in (clear, messy))
+        assert many > 10 * few
+
+
+def test_disputes_need_ordered_neighbours():
+    with pytest.raises(InputError, match="only ordered neighbourhoods can agree on triangles; use Delaunay stars"):
+        disputed_links(nearest(disc(40).points, 6))

@@ -1,19 +1,31 @@
 import json
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from pointchart import FormatError, StageClock, certify, reconstruct, shapes
-from pointchart.report import certificate_lines, certificate_report, peak_memory_mb, run_report, summary, write_json
+from pointchart import FormatError, SolveError, StageClock, certify, leave_gaps_open, reconstruct, shapes
+from pointchart.bridges import Bridge
+from pointchart.report import (
+    boundary_lines,
+    certificate_lines,
+    certificate_report,
+    peak_memory_mb,
+    run_report,
+    summary,
+    write_json,
+)
 
 SQUARE = np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]])
 WHOLE = [[0, 1, 2], [0, 2, 3]]
 CONTRACT = {
-    "boundary": {"points", "length", "origin", "gaps"},
+    "boundary": {"points", "length", "origin", "loops", "gaps", "doubts", "tried_before"},
     "solve": {"unknowns", "nonzeros", "method", "iterations", "residual"},
     "certificate": {
         "disc",
+        "holes",
+        "as_asked",
         "every_point_used",
         "euler",
         "boundary_loops",
@@ -35,7 +47,19 @@ def run():
     points = points[np.random.default_rng(1).permutation(len(points))]
     clock = StageClock()
     result = reconstruct(points, clock=clock)
-    return points, result, run_report(points, result, clock, {"k": 12}, boundary_given=False)
+    return points, result, run_report(points, np.arange(len(points)), result, clock, {"k": 12}, boundary_given=False)
+
+
+@pytest.fixture(scope="module")
+def sheet():
+    """Return a grid and its reconstruction."""
+    shape = shapes.grid(9, 7)
+    return shape.points, reconstruct(shape.points)
+
+
+def with_evidence(result, **changes):
+    """Return a result with other evidence."""
+    return replace(result, evidence=replace(result.evidence, **changes))
 
 
 def test_a_report_has_the_keys_of_the_contract(run):
@@ -50,7 +74,7 @@ def test_a_report_has_the_keys_of_the_contract(run):
 def test_a_report_says_what_the_run_did(run):
     points, result, report = run
     n = len(result.rows)
-    assert report["points"] == {"read": len(points), "distinct": n, "repeated": 2}
+    assert report["points"] == {"read": len(points), "distinct": n, "repeated": 2, "left_out": 0}
     assert report["options"] == {"k": 12}
     assert report["boundary"]["points"] == len(result.loop)
     assert report["boundary"]["origin"] == "found"
@@ -72,6 +96,104 @@ def test_a_gap_is_reported_with_its_size_and_place(run):
     assert gap["points"] == len(result.evidence.bridges[0].points)
     distance = np.linalg.norm(points[result.rows][gap["at_vertex"], :2] - [0.1, 0.2])
     assert distance == pytest.approx(0.2, abs=0.15)
+
+
+def test_a_report_names_every_loop_the_chosen_one_first(run):
+    points, result, report = run
+    boundary, vertices = report["boundary"], points[result.rows]
+    chosen, other = boundary["loops"]
+    for loop, candidate in zip(boundary["loops"], result.evidence.candidates, strict=True):
+        assert set(loop) == {"points", "length", "closed", "confidence", "at_vertex"}
+        assert loop["at_vertex"] in candidate.loop
+        assert 0.5 <= loop["confidence"] <= 1
+    assert (chosen["points"], chosen["length"]) == (boundary["points"], pytest.approx(boundary["length"], rel=0.01))
+    assert np.linalg.norm(vertices[chosen["at_vertex"], :2]) == pytest.approx(1, abs=1e-6)
+    assert np.linalg.norm(vertices[other["at_vertex"], :2] - [0.1, 0.2]) == pytest.approx(0.2, abs=0.1)
+    assert boundary["doubts"] == boundary["tried_before"] == []
+
+
+def test_a_report_on_a_boundary_that_was_given_has_no_loops_to_choose_from():
+    shape, clock = shapes.grid(9, 7), StageClock()
+    result = reconstruct(shape.points, shape.boundary, clock=clock)
+    boundary = run_report(shape.points, np.arange(len(shape.points)), result, clock, {}, boundary_given=True)[
+        "boundary"
+    ]
+    assert boundary == {
+        "points": 28,
+        "length": 28.0,
+        "origin": "given",
+        "loops": [],
+        "gaps": [],
+        "doubts": [],
+        "tried_before": [],
+    }
+
+
+def test_a_gap_left_open_is_a_hole_of_the_certificate_and_still_a_gap(run):
+    points, bridged, report = run
+    clock = StageClock()
+    opened = reconstruct(points, gaps=leave_gaps_open, clock=clock)
+    with_hole = run_report(points, np.arange(len(points)), opened, clock, {}, boundary_given=False)
+    assert with_hole["boundary"]["gaps"] == report["boundary"]["gaps"]
+    closed, proof = report["certificate"], with_hole["certificate"]
+    assert (closed["disc"], closed["as_asked"], closed["holes"]) == (True, True, 0)
+    assert (proof["disc"], proof["as_asked"], proof["holes"]) == (False, True, 1)
+    assert (proof["euler"], proof["boundary_loops"]) == (0, 2)
+    assert proof["uv_positive"] is proof["uv_boundary_simple"] is True
+    # Round the hole, triangles with all corners on the rim go with the bridge.
+    n_over_gap = len(bridged.evidence.bridges[0].triangles)
+    assert closed["triangles"] - 3 * n_over_gap <= proof["triangles"] <= closed["triangles"] - n_over_gap
+
+
+def test_every_bridge_is_a_gap_where_the_scan_ends_and_a_doubt_where_it_does_not(run):
+    points, result, _ = run
+    (gap,) = result.evidence.bridges
+    (line,) = boundary_lines(result, points, found=False)[1:]
+    assert line == f"1 gaps of the scan, bridged, the largest {gap.rim_in_spacings:.0f} spacings round"
+    doubt = replace(gap, share=0.33)
+    doubtful = with_evidence(result, bridges=[doubt, gap, replace(gap, share=0.34)])
+    report = run_report(points, np.arange(len(points)), doubtful, StageClock(), {}, boundary_given=True)["boundary"]
+    assert (len(report["gaps"]), len(report["doubts"])) == (2, 1)
+    assert report["doubts"][0] == {
+        "points": len(gap.points),
+        "length": gap.rim_length,
+        "spacings": round(gap.rim_in_spacings, 1),
+        "at_vertex": int(gap.points[0]),
+    }
+
+
+def test_the_boundary_has_one_line_where_nothing_is_to_be_said(sheet):
+    points, result = sheet
+    assert boundary_lines(result, points, found=True) == ["boundary of 28 points, found"]
+    assert boundary_lines(result, points, found=False) == ["boundary of 28 points, as given"]
+
+
+def test_the_loops_that_did_not_do_are_counted_and_reported_as_they_were_refused(sheet):
+    points, result = sheet
+    failures = [SolveError("the surface is no disc at point {there}", there=7), SolveError("no solver")]
+    tried = with_evidence(result, candidates=result.evidence.candidates * 3, failures=failures)
+    (line,) = boundary_lines(tried, points, found=True)
+    assert line == "boundary of 28 points, found, the best of 3 loops after 2 trials"
+    report = run_report(points, np.arange(len(points)), tried, StageClock(), {}, boundary_given=False)
+    assert report["boundary"]["tried_before"] == ["the surface is no disc at point 7", "no solver"]
+
+
+@pytest.mark.parametrize(("holes", "done"), [(0, "bridged"), (1, "1 left open"), (2, "2 left open")])
+def test_gaps_and_doubts_have_a_line_each_with_the_size_and_place_of_the_largest(sheet, holes, done):
+    points, result = sheet
+    large, small = (
+        Bridge(np.arange(2), corners, length, length, 1.0)
+        for corners, length in ((np.arange(20, 25), 9.0), (np.arange(3), 4.0))
+    )
+    bridges = [replace(large, points=np.array([31, 40, 41]), share=0.2), large, small, replace(small, share=0.0)]
+    proof = replace(result.certificate, holes=holes)
+    said = boundary_lines(with_evidence(replace(result, certificate=proof), bridges=bridges), points, found=True)
+    assert said == [
+        "boundary of 28 points, found",
+        f"2 gaps of the scan, {done}, the largest 9 spacings round",
+        "look at 2 places that the mesh spans by edges of over four spacings although the scan has no gap there, the "
+        "largest at vertex 31 (4, 3, 0)",
+    ]
 
 
 def test_a_report_comes_back_from_its_file(run, tmp_path):
@@ -111,6 +233,32 @@ def test_the_summary_of_a_bad_mesh_names_all_faults():
     ring = shapes.annulus(12, 3)
     assert summary(certify(ring.points, ring.triangles)) == (
         "no disc: its Euler characteristic is 0 instead of 1, it has 2 boundary loops instead of 1"
+    )
+
+
+@pytest.mark.parametrize("holes", [0, 1, 2])
+def test_holes_that_were_asked_for_are_no_fault_and_others_are(holes):
+    ring = shapes.annulus(12, 3)
+    proof = certify(ring.points, ring.triangles, holes=holes)
+    lines, report = certificate_lines(proof), certificate_report(proof)
+    assert (report["holes"], report["as_asked"], report["disc"]) == (holes, holes == 1, False)
+    if holes == 1:
+        assert {"[ok] Euler characteristic 0", "[ok] 2 boundary loops, 1 of them round holes"} <= set(lines)
+        assert summary(proof) == "a certified disc with a hole: 36 points, 48 triangles"
+    else:
+        loops = "one boundary loop" if holes == 0 else "3 boundary loops, 2 of them round holes"
+        assert {f"[!!] Euler characteristic {1 - holes}: it is 0", f"[!!] {loops}: there are 2"} <= set(lines)
+        assert summary(proof) == (
+            f"no disc: its Euler characteristic is 0 instead of {1 - holes}, it has 2 boundary loops instead of "
+            f"{1 + holes}"
+        )
+
+
+def test_the_summary_counts_several_holes():
+    shape = shapes.pierce(shapes.disc(1200), n_gaps=3, radius_in_spacings=3.5)
+    proof = certify(shape.points, shape.triangles, uv=shape.uv, holes=3)
+    assert summary(proof) == (
+        f"a certified disc with 3 holes: {len(shape.points)} points, {len(shape.triangles)} triangles, uv one-to-one"
     )
 
 

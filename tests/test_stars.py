@@ -5,9 +5,10 @@ from hypothesis import strategies as st
 from scipy.spatial import Delaunay
 from strategies import clouds, cocircular_sets, flat, integer_sets, planar_discs, rotations, seeds
 
+from pointchart.errors import InputError
 from pointchart.neighbors import Neighborhoods, ball, nearest
-from pointchart.shapes import add_noise, fold, grid, relief
-from pointchart.stars import STEEPEST, delaunay_star, normals
+from pointchart.shapes import add_noise, disc, fold, grid, hemisphere, relief
+from pointchart.stars import STEEPEST, delaunay_star, nearest_star, normals, smooth
 
 
 def star_pairs(star):
@@ -225,3 +226,95 @@ def test_neighbours_an_ulp_apart_do_not_break_a_star(ulps):
     star = delaunay_star(points, nearest(points, 15))
     assert {(5, 80), (80, 5)} <= star_pairs(star)
     assert np.isfinite(star.local).all()
+
+
+# Stars among more, where they ask for it
+
+
+@pytest.mark.parametrize("stretch", [1, 2, 3])
+def test_stars_of_a_scan_with_lines_far_apart_are_those_of_the_whole_triangulation(stretch):
+    uv = disc(400, seed=3).uv * [1, stretch]
+    star = nearest_star(flat(uv), nearest(flat(uv), 8))
+    expected = edge_pairs(Delaunay(uv).simplices)
+    closed = ~star.is_open
+    # A star that is open among the nearest stays so: lines far apart are told from a boundary elsewhere.
+    assert {(i, j) for i, j in star_pairs(star) if closed[i]} == {(i, j) for i, j in expected if closed[i]}
+    assert closed.mean() > 0.8
+
+
+@settings(max_examples=20)
+@given(planar_discs(smallest=60), st.integers(12, 40))
+def test_in_a_plane_the_number_of_nearest_does_not_matter(shape, k):
+    one, other = (nearest_star(shape.points, nearest(shape.points, count)) for count in (k, 50))
+    closed = ~one.is_open & ~other.is_open
+    assert {(i, j) for i, j in star_pairs(one) if closed[i]} == {(i, j) for i, j in star_pairs(other) if closed[i]}
+
+
+def test_stars_of_sheets_three_spacings_apart_are_those_of_each_alone():
+    shape = disc(600, seed=1)
+    sheets = np.r_[shape.points, shape.points + shape.spacing * np.array([0.3, 0.2, 3.0])]
+    star, alone = (nearest_star(points, nearest(points, 20)) for points in (sheets, shape.points))
+    assert {(i, j) for i, j in star_pairs(star) if i < 600} == star_pairs(alone)
+
+
+# Smoothing
+
+
+@settings(max_examples=10)
+@given(planar_discs(smallest=60), rotations(), st.tuples(*[st.floats(-9, 9)] * 3))
+def test_smoothing_leaves_the_points_of_any_plane_where_they_are(shape, rotation, shift):
+    points = shape.points @ rotation.T + shift
+    assert np.allclose(smooth(points, nearest(points, 20)), points, rtol=0, atol=1e-12)
+
+
+@settings(max_examples=10)
+@given(clouds(smallest=60), rotations(), st.floats(-6, 6), seeds)
+def test_smoothing_moves_with_the_points_scales_with_them_and_ignores_their_order(points, rotation, exponent, seed):
+    still = smooth(points, nearest(points, 20))
+    moved = 10.0**exponent * (points @ rotation.T + 1)
+    expected = 10.0**exponent * (still @ rotation.T + 1)
+    assert np.allclose(smooth(moved, nearest(moved, 20)), expected, rtol=1e-9)
+    order = np.random.default_rng(seed).permutation(len(points))
+    assert np.allclose(smooth(points[order], nearest(points[order], 20)), still[order], rtol=0, atol=1e-12)
+
+
+@pytest.mark.parametrize("sigma", [0.1, 0.25, 0.5])
+@pytest.mark.parametrize("seed", range(2))
+def test_smoothing_halves_the_noise_across_a_curved_surface_at_least(sigma, seed):
+    cap = hemisphere(3000)
+    noisy = add_noise(cap, sigma_in_spacings=sigma, seed=seed).points
+    inside = cap.points[:, 2] > 4 * cap.spacing
+    before, after = (np.linalg.norm(p[inside], axis=1) - 1 for p in (noisy, smooth(noisy, nearest(noisy, 20))))
+    assert after.std() < 0.5 * before.std()
+
+
+def test_along_the_surface_smoothing_moves_by_the_square_of_the_noise_only():
+    sheet, sigmas, moves = disc(800, seed=2), np.array([0.05, 0.1, 0.2]), []
+    height = np.random.default_rng(5).normal(size=(800, 1)) * [0, 0, sheet.spacing]
+    for sigma in sigmas:
+        noisy = sheet.points + sigma * height
+        moves.append(np.abs(smooth(noisy, nearest(sheet.points, 20)) - noisy)[:, :2].mean())
+    assert np.polyfit(np.log(sigmas), np.log(moves), 1)[0] == pytest.approx(2, abs=0.1)
+
+
+def test_a_smoothed_sphere_shrinks_with_the_square_of_the_spacing():
+    errors = []
+    for n in (500, 2000, 8000):
+        cap = hemisphere(n)
+        radius = np.linalg.norm(smooth(cap.points, nearest(cap.points, 20)), axis=1)
+        errors.append(1 - radius[cap.points[:, 2] > 0.5].mean())
+    assert np.polyfit(np.log([1.0, 0.5, 0.25]), np.log(errors), 1)[0] == pytest.approx(2, abs=0.1)
+
+
+def test_a_sheet_three_spacings_away_pulls_no_inner_point():
+    sheet = grid(15, 12)
+    sheets = np.r_[sheet.points, sheet.points + [0.3, 0.2, 3.0]]
+    inside = ((sheet.uv > 1) & (sheet.uv < [13, 10])).all(axis=1)
+    assert np.abs(smooth(sheets, nearest(sheets, 20))[:180] - sheet.points)[inside].max() < 1e-12
+
+
+@pytest.mark.parametrize("stage", [delaunay_star, nearest_star, normals, smooth])
+def test_neighbourhoods_of_other_points_are_refused(stage):
+    sheet = grid(6, 5)
+    with pytest.raises(InputError, match="the neighbourhoods are those of 30 points, not of 29"):
+        stage(sheet.points[:29], nearest(sheet.points, 8))

@@ -11,6 +11,7 @@ from .mesh import half_edges
 from .typing import Floats, Indices, Mask, Points, Triangles
 
 LONG_EDGE = 4.0  # local spacings
+GAP_SHARE = 1 / 3  # of a bridge's corners that score as boundary points, from which on it lies over a gap of the scan
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -40,7 +41,7 @@ class Bridge:
     @property
     def is_gap(self) -> bool:
         """Whether it bridges a gap of the scan: the scan ends along it. Otherwise the mesh is in doubt there."""
-        return self.share >= 0.5
+        return self.share >= GAP_SHARE
 
 
 def find_bridges(
@@ -98,8 +99,8 @@ def find_bridges(
     return sorted(bridges, key=lambda bridge: -bridge.rim_length)
 
 
-def open_gaps(triangles: Triangles, gaps: Iterable[Bridge], n_points: int) -> tuple[Triangles, int]:
-    """Take the bridges over gaps of the scan out of a mesh, leaving a hole for each.
+def open_gaps(triangles: Triangles, patches: Iterable[Indices], n_points: int) -> tuple[Triangles, int]:
+    """Take patches of triangles out of a mesh, leaving a hole for each.
 
     No point is lost and no hole touches another rim: triangles that this asks for stay.
 
@@ -107,30 +108,30 @@ def open_gaps(triangles: Triangles, gaps: Iterable[Bridge], n_points: int) -> tu
     ----------
     triangles : (m, 3) int array
         A disc.
-    gaps : iterable of Bridge
+    patches : iterable of (k,) int arrays
+        The triangles of each, joined by edges.
     n_points : int
 
     Returns
     -------
     triangles : (k, 3) int64 array
     n_holes : int
-        Fewer than the gaps, where one lies along the boundary.
+        Fewer than the patches, where one lies along the boundary.
 
     Examples
     --------
     >>> ring = np.array([[0, 1, 4], [0, 4, 3], [1, 2, 5], [1, 5, 4], [2, 0, 3], [2, 3, 5], [3, 4, 5]])
-    >>> over = Bridge(np.array([6]), np.array([3, 4, 5]), 3.0, 3.0, 1.0)
-    >>> open_gaps(ring, [over], 6)[1]
+    >>> open_gaps(ring, [np.array([6])], 6)[1]
     1
     """
     edges, removed = half_edges(triangles, n_points), np.zeros(len(triangles), np.bool_)
     on_rim, in_gap, n_holes = np.zeros(n_points, np.bool_), np.zeros(len(triangles), np.bool_), 0
     on_rim[edges.origins[edges.twins < 0]] = True
-    for gap in gaps:
-        inner = gap.triangles[~on_rim[triangles[gap.triangles]].any(axis=1)]
+    for patch in patches:
+        inner = patch[~on_rim[triangles[patch]].any(axis=1)]
         if len(inner) == 0:
             continue
-        first, in_gap[gap.triangles], n_holes = int(inner[0]), True, n_holes + 1
+        first, in_gap[patch], n_holes = int(inner[0]), True, n_holes + 1
         removed[first], on_rim[triangles[first]] = True, True
         queue = deque(edges.twins[3 * first : 3 * first + 3].tolist())
         while queue:

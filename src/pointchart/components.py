@@ -6,49 +6,54 @@ from numpy.typing import ArrayLike
 
 from .errors import InputError
 from .neighbors import Neighborhoods, nearest
+from .neighbors import spacing as local_spacing
 from .prepare import prepare
-from .typing import Indices
+from .typing import Floats, Indices, Points
 from .vicinity import NEAREST
 
+APART = 10.0  # spacings
 
-def label_parts(around: Neighborhoods) -> Indices:
-    """Label the parts that neighbourhoods join, the largest 0, (n,).
+
+def label_parts(points: Points, around: Neighborhoods, spacing: Floats) -> Indices:
+    """Label the parts that neighbourhoods join by no more than ten spacings at either end, the largest 0, (n,).
 
     Examples
     --------
-    >>> pairs = nearest([[0, 0, 0], [0, 1, 0], [9, 0, 0], [9, 1, 0], [9, 2, 0]], k=1)
-    >>> label_parts(pairs)
+    >>> points = np.array([[0.0, 0, 0], [0, 1, 0], [19, 0, 0], [19, 1, 0], [19, 2, 0]])
+    >>> label_parts(points, nearest(points, 4), np.ones(5))
     array([1, 1, 0, 0, 0])
     """
-    n = around.n_points
-    graph = sp.csr_array((np.ones(len(around.indices), np.int8), around.indices, around.indptr), shape=(n, n))
+    n, rows = around.n_points, around.rows
+    length = np.linalg.norm(points[around.indices] - points[rows], axis=1)
+    joins = length <= APART * np.minimum(spacing[rows], spacing[around.indices])
+    graph = sp.csr_array((joins[joins], (rows[joins], around.indices[joins])), shape=(n, n))
     labels = sp.csgraph.connected_components(graph, directed=False)[1]
     rank = np.empty(labels.max() + 1, np.int64)
     rank[np.argsort(-np.bincount(labels), kind="stable")] = np.arange(len(rank))
     return np.asarray(rank[labels])
 
 
-def check_one_piece(around: Neighborhoods) -> None:
-    """Check that the neighbourhoods join all points.
+def check_one_piece(points: Points, around: Neighborhoods, spacing: Floats) -> None:
+    """Check that the points are in one part.
 
     Raises
     ------
     InputError
         Saying how many parts there are and how large, with a point of each.
     """
-    labels = label_parts(around)
+    labels = label_parts(points, around, spacing)
     sizes = np.bincount(labels)
     if len(sizes) > 1:
         shown = " and ".join(str(size) for size in sizes[:4]) + (" ..." if len(sizes) > 4 else "")
         raise InputError(
             f"the points fall into {len(sizes)} separate parts, of {shown} points (some of them: {{seeds}}), but a "
-            "patch is in one piece; mesh the largest (--component largest), or the parts one by one",
+            "patch is in one piece; take the largest (mesh has --component largest), or the parts one by one",
             seeds=np.unique(labels, return_index=True)[1],
         )
 
 
 def largest_component(points: ArrayLike) -> Indices:
-    """Find the rows of the largest part of a scan, as the 20 nearest neighbours join it.
+    """Find the rows of the largest part of a scan: strays and other sheets are left out.
 
     Parameters
     ----------
@@ -67,4 +72,6 @@ def largest_component(points: ArrayLike) -> Indices:
     108
     """
     cloud = prepare(points)
-    return np.flatnonzero(label_parts(nearest(cloud.points, NEAREST))[cloud.places] == 0)
+    around = nearest(cloud.points, NEAREST)
+    labels = label_parts(cloud.points, around, local_spacing(cloud.points, around=around))
+    return np.flatnonzero(labels[cloud.places] == 0)

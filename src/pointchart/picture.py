@@ -9,7 +9,7 @@ import numpy as np
 from .io import replacing
 from .typing import UV, Floats, Loop, Points, Triangles
 
-PAPER, INK, ACCENT = "#fbfaf7", "#22303c", "#c8553d"
+PAPER, FAINT, INK, ACCENT = "#fbfaf7", "#ccd6d8", "#22303c", "#c8553d"
 STONE = np.array([0.83, 0.77, 0.68])
 
 
@@ -45,9 +45,11 @@ def draw_run(
         axes.set_aspect("equal")
         axes.set_axis_off()
         axes.autoscale_view()
-    with replacing(path) as temporary:
-        figure.savefig(temporary, dpi=110, format="png")
-    plt.close(figure)
+    try:
+        with replacing(path) as temporary:
+            figure.savefig(temporary, dpi=110, format="png")
+    finally:
+        plt.close(figure)
 
 
 def draw_boundary(path: Path, points: Points, scores: Floats, loops: Sequence[Loop]) -> None:
@@ -70,23 +72,33 @@ def draw_boundary(path: Path, points: Points, scores: Floats, loops: Sequence[Lo
     mpl.use("Agg")
     from matplotlib import pyplot as plt
 
+    scale = mpl.colors.LinearSegmentedColormap.from_list("score", [FAINT, "#3a8fb7", INK])
     figure, panels = plt.subplots(1, 2, figsize=(15.0, 7.4), facecolor=PAPER, layout="constrained")
     facing = (points - points[loops[0]].mean(axis=0)) @ _plane_axes(points[loops[0]]).T
     for axes, turned in zip(panels, (facing, facing[:, [0, 2, 1]] * [1, 1, -1]), strict=True):
         order = np.argsort(turned[:, 2])
-        drawn = axes.scatter(
-            *turned[order, :2].T, c=scores[order], s=1.5, cmap="viridis_r", vmin=0, vmax=1, linewidths=0
-        )
+        x, y = turned[order, :2].T
+        size = np.clip(3e4 / len(points), 1.0, 9.0)
+        drawn = axes.scatter(x, y, c=scores[order], s=size, cmap=scale, vmin=0.0, vmax=1.0, linewidths=0)
         for number, loop in enumerate(loops):
             _trace(axes, turned[loop], is_boundary=number == 0)
-        axes.set_aspect("equal")
-        axes.set_axis_off()
+        _fit(axes, turned)
     panels[0].set_title(f"the boundary: {len(loops[0])} points", color=INK)
     panels[1].set_title(f"from the side; {len(loops) - 1} other loops", color=INK)
     figure.colorbar(drawn, ax=panels, shrink=0.6, label="score: 0 inside, 1 boundary")
-    with replacing(path) as temporary:
-        figure.savefig(temporary, dpi=110, format="png")
-    plt.close(figure)
+    try:
+        with replacing(path) as temporary:
+            figure.savefig(temporary, dpi=110, format="png")
+    finally:
+        plt.close(figure)
+
+
+def _fit(axes: Any, seen: Floats) -> None:
+    """Frame what is drawn with a margin, however flat it is."""
+    low, high = seen[:, :2].min(axis=0), seen[:, :2].max(axis=0)
+    margin = 0.05 * float((high - low).max())
+    axes.set(xlim=(low[0] - margin, high[0] + margin), ylim=(low[1] - margin, high[1] + margin), aspect="equal")
+    axes.set_axis_off()
 
 
 def _plane_axes(corners: Points) -> Floats:

@@ -12,7 +12,7 @@ from .certify import Certificate, certify
 from .chart import ChartRule, uv_on_mesh
 from .clock import StageClock
 from .errors import PointchartError, SolveError, points_called
-from .gaps import SECOND_BOUNDARY, GapRule, Rims, bridge_gaps, check_torn, refuse_second_boundary
+from .gaps import GapRule, Rims, bridge_gaps, check_torn, refuse_second_boundary
 from .links import disputed_links, link_stars
 from .neighbors import Neighborhoods, nearest
 from .parameterize import Parameterization, parameterize
@@ -69,7 +69,7 @@ class Evidence:
         Patches of long triangles, over gaps of the scan or where the mesh is in doubt; in the unit of the scan. Their
         triangles are numbered as before any gap was left open.
     failures : list of PointchartError
-        Why better candidates for the boundary did not do.
+        Why better candidates for the boundary did not do, naming rows of the scan.
     meshed : Meshed
         The first map, the swaps and the rounds, in the numbering of the prepared cloud.
     chart : Parameterization
@@ -156,19 +156,20 @@ def reconstruct(
     solver = solver or default_solver(len(survey.cloud.points))
     rule = gaps or (refuse_second_boundary if loop is None and outer is None else bridge_gaps)
     trials = survey.trials[:TRIALS] if outer is None else [survey]
-    with points_called(survey.cloud.rows):
-        stand = _first_that_stands(
-            trials, rule, lambda trial: _mesh(trial, connect, weights, swap, layout, solver, clock)
-        )
-        cloud, rim = survey.cloud, stand.survey.loop
+    stand = _first_that_stands(trials, rule, lambda trial: _mesh(trial, connect, weights, swap, solver, clock))
+    cloud, rim = survey.cloud, stand.survey.loop
+    boundary_uv = layout(survey.scan, cloud.rows[rim])
+    with points_called(cloud.rows):
         with clock("parameters"):
-            mapped = chart(cloud.points, rim, stand.boundary_uv, stand.meshed, solver)
+            meshed = replace(stand.meshed, swapped=swap_off_sides(stand.meshed.swapped, rim, boundary_uv))
+            mapped = chart(cloud.points, rim, boundary_uv, meshed, solver)
         with clock("certify"):
-            triangles, holes = open_gaps(stand.meshed.swapped.triangles, stand.opened, len(cloud.points))
+            patches = stand.rims.patches(stand.opened, meshed.swapped.triangles)
+            triangles, holes = open_gaps(meshed.swapped.triangles, patches, len(cloud.points))
             spacing = survey.vicinity.spacing
             proof = certify(cloud.points, triangles, uv=mapped.uv, loop=rim, spacing=spacing, holes=holes)
             _check_proof(proof, chart)
-    return _in_rows(stand, triangles, mapped, proof)
+    return _in_rows(replace(stand, meshed=meshed), triangles, mapped, proof)
 
 
 def parameterize_scan(
@@ -221,14 +222,14 @@ class _Stand:
     """A mesh that stands, with the survey of the loop that it has for its boundary."""
 
     survey: Survey
-    boundary_uv: UV
     meshed: Meshed
     bridges: list[Bridge]
+    rims: Rims
     opened: list[Bridge]
     failures: list[PointchartError]
 
 
-def _first_that_stands(trials: list[Survey], rule: GapRule, mesh: Callable[[Survey], tuple[Meshed, UV]]) -> _Stand:
+def _first_that_stands(trials: list[Survey], rule: GapRule, mesh: Callable[[Survey], Meshed]) -> _Stand:
     """Mesh a scan with one loop after the other, until the mesh bridges nothing but gaps.
 
     A false loop has to be bridged over the true one, which shows. If none stands, the first failure tells why.
@@ -236,22 +237,21 @@ def _first_that_stands(trials: list[Survey], rule: GapRule, mesh: Callable[[Surv
     failures: list[PointchartError] = []
     for trial in trials:
         try:
-            return _stand(trial, rule, *mesh(trial), failures)
+            with points_called(trial.cloud.rows):
+                return _stand(trial, rule, mesh(trial), failures)
         except PointchartError as failure:
             failures.append(failure)
     raise failures[0]
 
 
-def _stand(survey: Survey, rule: GapRule, meshed: Meshed, boundary_uv: UV, failures: list[PointchartError]) -> _Stand:
+def _stand(survey: Survey, rule: GapRule, meshed: Meshed, failures: list[PointchartError]) -> _Stand:
     """Check that a mesh bridges nothing but gaps of the scan, and those as the rule wants."""
     points, spacing = survey.points, survey.cloud.scale * survey.vicinity.spacing
     bridges = find_bridges(points, meshed.swapped.triangles, spacing, lambda: survey.scores.is_boundary)
-    rims = Rims(points, survey.loop, [bridge for bridge in bridges if bridge.is_gap])
-    # A boundary that was given speaks for a disc: then bad places of the mesh are only reported.
-    least = 0.0 if survey.found else SECOND_BOUNDARY * rims.length
-    check_torn(points, bridges, disputed_links(survey.vicinity.star), least=least)
-    opened = rule(rims)
-    return _Stand(survey, boundary_uv, meshed, bridges, opened, failures)
+    others = [candidate.loop for candidate in survey.candidates[1:]]
+    rims = Rims(points, survey.loop, [bridge for bridge in bridges if bridge.is_gap], others)
+    check_torn(rims, bridges, disputed_links(survey.vicinity.star), is_given=survey.found is None)
+    return _Stand(survey, meshed, bridges, rims, rule(rims), failures)
 
 
 def _mesh(
@@ -259,23 +259,19 @@ def _mesh(
     connect: Connect | None,
     weights: WeightScheme | None,
     swap: SwapRule,
-    layout: LayoutRule,
     solver: Solver,
     clock: StageClock,
-) -> tuple[Meshed, UV]:
-    """Mesh the points inside the loop; return the mesh, and where its boundary goes on the domain."""
+) -> Meshed:
     points, rim = survey.cloud.points, survey.loop
-    boundary_uv, circle = layout(survey.scan, survey.cloud.rows[rim]), chord_length_on_circle(points, rim)
+    circle = chord_length_on_circle(points, rim)
     if connect is None and weights is None:
         with clock("neighbours"):
             links = link_stars(survey.vicinity.star)
-        meshed = mesh_repeatedly(points, rim, circle, links, swap=swap, solver=solver, clock=clock)
-    else:
-        with clock("neighbours"):
-            neighborhoods = (connect or _default_stars)(points * survey.cloud.scale)
-        scheme = weights or mean_value
-        meshed = mesh_once(points, rim, circle, neighborhoods, weights=scheme, swap=swap, solver=solver, clock=clock)
-    return replace(meshed, swapped=swap_off_sides(meshed.swapped, rim, boundary_uv)), boundary_uv
+        return mesh_repeatedly(points, rim, circle, links, swap=swap, solver=solver, clock=clock)
+    with clock("neighbours"):
+        neighborhoods = (connect or _default_stars)(points * survey.cloud.scale)
+    scheme = weights or mean_value
+    return mesh_once(points, rim, circle, neighborhoods, weights=scheme, swap=swap, solver=solver, clock=clock)
 
 
 def _check_proof(proof: Certificate, chart: ChartRule) -> None:
@@ -297,7 +293,6 @@ def _in_rows(stand: _Stand, triangles: Triangles, mapped: Parameterization, proo
     vertex[order] = np.arange(len(order))
     candidates = [replace(c, loop=vertex[c.loop], length=cloud.scale * c.length) for c in stand.survey.candidates]
     bridges = [replace(bridge, points=vertex[bridge.points]) for bridge in stand.bridges]
-    failures = [failure.renumbered(cloud.rows) for failure in stand.failures]
-    evidence = Evidence(candidates, bridges, failures, stand.meshed, mapped)
+    evidence = Evidence(candidates, bridges, stand.failures, stand.meshed, mapped)
     loop = vertex[stand.survey.loop]
     return Reconstruction(cloud.rows[order], vertex[triangles], mapped.uv[order], loop, proof, evidence)

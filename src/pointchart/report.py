@@ -2,6 +2,8 @@
 
 import json
 import sys
+from collections.abc import Iterator
+from contextlib import contextmanager, nullcontext
 from pathlib import Path
 from typing import Any
 
@@ -11,11 +13,12 @@ from .boundary import Candidate
 from .bridges import Bridge
 from .certify import Certificate
 from .clock import StageClock
+from .gaps import place_of
 from .io import replacing
 from .pipeline import Reconstruction
 from .quality import l2_stretch, least_distance, radius_ratios
 from .solve import Solution
-from .typing import Points
+from .typing import Indices, Points
 
 CHECKS = (
     ("every point used", "unused_points", "{} unused"),
@@ -62,12 +65,11 @@ def boundary_lines(result: Reconstruction, points: Points, *, found: bool) -> li
     holes = result.certificate.holes
     if gaps:
         done = f"{holes} left open" if holes else "bridged"
-        lines.append(f"{len(gaps)} gaps of the scan, {done}, the largest {len(gaps[0].points)} points round")
+        lines.append(f"{len(gaps)} gaps of the scan, {done}, the largest {gaps[0].rim_in_spacings:.0f} spacings round")
     if doubts:
-        place = ", ".join(f"{x:.6g}" for x in points[doubts[0].points[0]])
         lines.append(
             f"look at {len(doubts)} places that the mesh spans by edges of over four spacings although the scan has no "
-            f"gap there, the largest at vertex {doubts[0].points[0]} ({place})"
+            f"gap there, the largest at vertex {doubts[0].points[0]} {place_of(points, doubts[0].points[0])}"
         )
     return lines
 
@@ -88,7 +90,13 @@ def summary(proof: Certificate) -> str:
 
 
 def run_report(
-    scan: Points, result: Reconstruction, clock: StageClock, options: dict[str, Any], *, boundary_given: bool
+    scan: Points,
+    rows: Indices,
+    result: Reconstruction,
+    clock: StageClock,
+    options: dict[str, Any],
+    *,
+    boundary_given: bool,
 ) -> dict[str, Any]:
     """Gather what a run did, as plain data for JSON.
 
@@ -96,6 +104,8 @@ def run_report(
     ----------
     scan : (N, 3) array
         The points as read.
+    rows : (k,) int array
+        Those that were worked on.
     result : Reconstruction
     clock : StageClock
     options : dict
@@ -106,13 +116,18 @@ def run_report(
     -------
     dict
     """
-    points = scan[result.rows]
+    points = scan[rows[result.rows]]
     solution = result.evidence.meshed.first_map.solution
     stretch = l2_stretch(points, result.triangles, result.uv)
     ratios = radius_ratios(points, result.triangles)
     steps = np.linalg.norm(points[result.loop] - points[np.roll(result.loop, -1)], axis=1)
     return {
-        "points": {"read": len(scan), "distinct": len(points), "repeated": len(scan) - len(points)},
+        "points": {
+            "read": len(scan),
+            "distinct": len(points),
+            "repeated": len(rows) - len(points),
+            "left_out": len(scan) - len(rows),
+        },
         "options": options,
         "stages": stages_report(clock),
         "peak_memory_mb": peak_memory_mb(),
@@ -123,7 +138,7 @@ def run_report(
             "loops": [_loop(candidate) for candidate in result.evidence.candidates],
             "gaps": [_bridge(bridge) for bridge in result.evidence.bridges if bridge.is_gap],
             "doubts": [_bridge(bridge) for bridge in result.evidence.bridges if not bridge.is_gap],
-            "tried_before": [str(failure) for failure in result.evidence.failures],
+            "tried_before": [str(failure.renumbered(rows)) for failure in result.evidence.failures],
         },
         "solve": solve_report(solution),
         "solve_uv": solve_report(result.evidence.chart.solution),
@@ -182,9 +197,17 @@ def solve_report(solution: Solution) -> dict[str, Any]:
 
 def write_json(path: Path, report: dict[str, Any]) -> None:
     """Write a report as JSON."""
-    text = json.dumps(report, indent=1, allow_nan=False) + "\n"
-    with replacing(path) as temporary:
-        temporary.write_text(text, encoding="utf-8")
+    with writing_json(path, report):
+        pass
+
+
+@contextmanager
+def writing_json(path: Path | None, report: dict[str, Any]) -> Iterator[None]:
+    """Write a report as JSON, if a path is given; it is in its place when the block has ended well."""
+    with nullcontext() if path is None else replacing(path) as temporary:
+        if temporary is not None:
+            temporary.write_text(json.dumps(report, indent=1, allow_nan=False) + "\n", encoding="utf-8")
+        yield
 
 
 def peak_memory_mb() -> int | None:

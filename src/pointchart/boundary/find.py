@@ -90,11 +90,11 @@ def find_boundary(points: ArrayLike, *, vicinity: Vicinity | None = None) -> Fou
     """
     cloud = check_points(points)
     near = explore(cloud) if vicinity is None else vicinity
-    check_one_piece(near.around)
+    check_one_piece(cloud, near.around, near.spacing)
     agreed = agreed_triangles(near.smoothed, near.star, near.spacing)
     scores = boundary_scores(near.smoothed, near.around, near.star, agreed, near.spacing)
     surface = tightened(near.smoothed, agreed, scores.is_boundary)
-    found = [measure(near.smoothed, loop, scores.is_boundary) for loop in rims(surface, len(cloud))]
+    found = [measure(cloud, loop, scores.is_boundary) for loop in rims(surface, len(cloud))]
     scale = float(np.median(near.spacing))
     good = [c for c in found if c.share >= LEAST_SHARE and c.length >= SHORTEST * scale]
     if not good:

@@ -37,9 +37,11 @@ def boundary(
 ) -> None:
     """Find the boundary of a scan and write its points in order; the file can be edited and given back to mesh."""
     place = outer_place(outer)
+    taken = [scan, out]
     for path, suffix in ((picture, ".png"), (ply, ".ply")):
         if path is not None:
-            check_output(path, suffixes=(suffix,), inputs=[scan, out])
+            check_output(path, suffixes=(suffix,), inputs=taken)
+            taken.append(path)
     inputs = read_inputs(scan, None, out=out, suffixes=(".txt",), component=component)
     with staged(quiet) as clock, points_called(inputs.rows):
         survey = survey_scan(inputs.points, outer=place, clock=clock)

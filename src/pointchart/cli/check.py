@@ -16,9 +16,12 @@ from . import options as given
 
 
 def check(
-    mesh: Annotated[Path, typer.Argument(metavar="MESH", help="Mesh to check: ply, obj, off, stl, glb, npz.")],
+    mesh: Annotated[
+        Path, typer.Argument(metavar="MESH", readable=False, help="Mesh to check: ply, obj, off, stl, glb, npz.")
+    ],
     points: Annotated[
-        Path | None, typer.Option("--points", metavar="SCAN", help="The scan: vertex i has to be its point i.")
+        Path | None,
+        typer.Option("--points", metavar="SCAN", readable=False, help="The scan: vertex i has to be its point i."),
     ] = None,
     holes: Annotated[
         int, typer.Option("--holes", min=0, help="How many holes the disc should have: gaps that were left open.")
@@ -32,8 +35,9 @@ def check(
     read = read_scan(mesh)
     if len(read.triangles) == 0:
         raise InputError(f"{mesh}: the file has {len(read.points)} points and no triangles; give a mesh")
+    n_left = 0
     if points is not None:
-        _compare(read, read_scan(points), mesh, points)
+        n_left = _compare(read, read_scan(points), mesh, points)
     uv = _uv(read)
     proof = certify(read.points, read.triangles, uv=uv, holes=holes)
     if report is not None:
@@ -43,7 +47,8 @@ def check(
     if not proof.is_as_asked or (uv is not None and not proof.is_one_to_one):
         raise InputError(f"{mesh} is {summary(proof)}; mesh the scan again, or repair it")
     if not quiet:
-        print(f"{mesh}: {summary(proof)}", file=sys.stderr)
+        left = f"; {n_left} points of {points} are not in it" if n_left else ""
+        print(f"{mesh}: {summary(proof)}{left}", file=sys.stderr)
 
 
 def _uv(read: Scan) -> UV | None:
@@ -52,7 +57,8 @@ def _uv(read: Scan) -> UV | None:
     return np.column_stack([read.attributes["u"], read.attributes["v"]]).astype(np.float64)
 
 
-def _compare(read: Scan, scan: Scan, mesh: Path, path: Path) -> None:
+def _compare(read: Scan, scan: Scan, mesh: Path, path: Path) -> int:
+    """Check that the vertices of a mesh are points of a scan; return how many distinct ones are not among them."""
     rows = read.attributes.get("point_index", np.arange(len(scan.points)))
     n_distinct = len(np.unique(scan.points, axis=0))
     if len(read.points) != len(rows) or ("point_index" not in read.attributes and n_distinct != len(read.points)):
@@ -61,8 +67,6 @@ def _compare(read: Scan, scan: Scan, mesh: Path, path: Path) -> None:
         )
     if np.issubdtype(rows.dtype, np.floating) or rows.min() < 0 or rows.max() >= len(scan.points):
         raise InputError(f"{mesh} has a point_index that names no point of {path}; they do not belong together")
-    if len(read.points) < n_distinct:
-        print(f"{mesh} holds {len(read.points)} of the {n_distinct} distinct points of {path}", file=sys.stderr)
     extent = np.ptp(scan.points, axis=0).max()
     moved = np.flatnonzero(np.abs(read.points - scan.points[rows]).max(axis=1) > 1e-6 * extent)
     if len(moved):
@@ -71,3 +75,4 @@ def _compare(read: Scan, scan: Scan, mesh: Path, path: Path) -> None:
             "another scan, or in a format that keeps no order or too few digits, such as STL",
             moved=moved,
         )
+    return n_distinct - len(read.points)

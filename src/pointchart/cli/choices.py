@@ -3,6 +3,7 @@
 from collections.abc import Callable
 from enum import StrEnum
 from functools import partial
+from pathlib import Path
 
 import numpy as np
 import typer
@@ -13,7 +14,7 @@ from ..gaps import GapRule
 from ..neighbors import Neighborhoods
 from ..pipeline import Connect, LayoutRule
 from ..refine import SwapRule
-from ..typing import UV, Floats, Loop, Points
+from ..typing import UV, Floats, Indices, Loop, Points
 from ..weights import WeightScheme
 
 
@@ -125,20 +126,35 @@ def weights_rule(weighting: Weighting | None, kind: Neighbors | None) -> WeightS
     return weights.reciprocal_distance if kind in (Neighbors.ball, Neighbors.nearest) else None
 
 
-def layout_rule(domain: Domain, spacing: Spacing, corners: str | None) -> LayoutRule:
+def corner_names(domain: Domain, corners: str | None) -> list[int] | None:
+    """Return the boundary points named for the corners of the square, if any are."""
+    if corners is None:
+        return None
+    if domain is Domain.circle:
+        raise typer.BadParameter("--corners needs --domain square")
+    words = corners.split(",")
+    if len(words) != 4 or not all(word.strip().isdigit() for word in words):
+        raise typer.BadParameter(f"--corners is '{corners}'; four boundary points are needed, such as 12,480,971,1500")
+    return [int(word) for word in words]
+
+
+def layout_rule(domain: Domain, spacing: Spacing, corners: Indices | None) -> LayoutRule:
     """Return the function that lays the boundary out as asked for."""
     steps = STEPS[spacing]
     if domain is Domain.circle:
-        if corners is not None:
-            raise typer.BadParameter("--corners needs --domain square")
         return lambda points, loop: boundary.on_circle(steps(points, loop))
-    named = None if corners is None else _corner_names(corners)
 
     def square(points: Points, loop: Loop) -> UV:
-        places = boundary.sharpest_places(points, loop) if named is None else boundary.places_of(named, loop)
+        places = boundary.sharpest_places(points, loop) if corners is None else boundary.places_of(corners, loop)
         return boundary.on_square(steps(points, loop), places)
 
     return square
+
+
+def check_exclusive(loop: Path | None, outer: str | None) -> None:
+    """Check that the boundary is either given or said to pass a place."""
+    if loop is not None and outer is not None:
+        raise typer.BadParameter("--boundary and --outer exclude each other: either says which loop the boundary is")
 
 
 def outer_place(text: str | None) -> Floats | None:
@@ -146,13 +162,9 @@ def outer_place(text: str | None) -> Floats | None:
     if text is None:
         return None
     try:
-        return np.array([float(word) for word in text.split(",")]).reshape(3)
+        place = np.array([float(word) for word in text.split(",")]).reshape(3)
     except ValueError:
-        raise typer.BadParameter(f"--outer is '{text}'; a place is needed, such as 0.5,-12,3.25") from None
-
-
-def _corner_names(text: str) -> list[int]:
-    words = text.split(",")
-    if len(words) != 4 or not all(word.strip().isdigit() for word in words):
-        raise typer.BadParameter(f"--corners is '{text}'; four boundary points are needed, such as 12,480,971,1500")
-    return [int(word) for word in words]
+        place = np.full(3, np.nan)
+    if not np.isfinite(place).all():
+        raise typer.BadParameter(f"--outer is '{text}'; a place is needed, such as 0.5,-12,3.25")
+    return place

@@ -1,10 +1,11 @@
 """What the commands read, once it is known that their outputs can be written."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ..components import largest_component
 from ..errors import InputError
@@ -36,6 +37,30 @@ class Inputs:
         """The points that are worked on, (k, 3)."""
         return self.scan.points[self.rows]
 
+    def places_of(self, named: ArrayLike, what: str) -> Indices:
+        """Return the places in `rows` of named rows of the file.
+
+        Raises
+        ------
+        InputError
+            If some are not worked on, or name no row.
+        """
+        indices, n_points = np.asarray(named, dtype=np.int64), len(self.scan.points)
+        wrong = indices[(indices < 0) | (indices >= n_points)]
+        if len(wrong):
+            raise InputError(
+                f"{len(wrong)} {what} name no point, such as {wrong[0]}; they run from 0 to {n_points - 1}"
+            )
+        place = np.full(n_points, -1, np.int64)
+        place[self.rows] = np.arange(len(self.rows))
+        outside = indices[place[indices] < 0]
+        if len(outside):
+            raise InputError(
+                f"{what} {{outside}} are not among the {len(self.rows)} points of the largest part; name points of it",
+                outside=outside,
+            )
+        return np.asarray(place[indices])
+
 
 def read_inputs(
     scan: Path,
@@ -55,19 +80,5 @@ def read_inputs(
     loop = None if boundary is None else read_loop(boundary)
     if component is None:
         return Inputs(read, np.arange(len(read.points)), loop)
-    rows = largest_component(read.points)
-    return Inputs(read, rows, None if loop is None else _places(loop, rows, len(read.points)))
-
-
-def _places(loop: Loop, rows: Indices, n_points: int) -> Loop:
-    place = np.full(n_points, -1, np.int64)
-    place[rows] = np.arange(len(rows))
-    named = loop[(loop >= 0) & (loop < n_points)]
-    outside = named[place[named] < 0]
-    if len(outside) or len(named) < len(loop):
-        raise InputError(
-            f"{len(loop) - len(named) + len(outside)} boundary points are not among the {len(rows)} points of the "
-            "largest part ({outside}); give a boundary of that part",
-            outside=outside,
-        )
-    return np.asarray(place[loop])
+    part = Inputs(read, largest_component(read.points), None)
+    return part if loop is None else replace(part, loop=part.places_of(loop, "boundary points"))

@@ -9,7 +9,7 @@ import typer
 from ..errors import points_called
 from ..io import MESH_SUFFIXES, write_mesh
 from ..pipeline import reconstruct
-from ..report import boundary_lines, certificate_lines, run_report, summary, write_json
+from ..report import boundary_lines, certificate_lines, run_report, summary, writing_json
 from ..typing import Indices
 from . import options as given
 from .choices import (
@@ -20,7 +20,9 @@ from .choices import (
     Domain,
     Spacing,
     Swap,
+    check_exclusive,
     connect_rule,
+    corner_names,
     layout_rule,
     outer_place,
     weights_rule,
@@ -55,11 +57,11 @@ def mesh(
     quiet: given.QuietOption = False,
 ) -> None:
     """Mesh a scan of one surface patch: a triangle mesh on exactly its points, certified to be a disc, with uv."""
-    connect, layout = connect_rule(neighbors, k, radius), layout_rule(domain, spacing, corners)
-    if boundary is not None and outer is not None:
-        raise typer.BadParameter("--boundary and --outer exclude each other: either say which loop the boundary is")
+    connect, named = connect_rule(neighbors, k, radius), corner_names(domain, corners)
+    check_exclusive(boundary, outer)
     place = outer_place(outer)
     inputs = read_inputs(scan, boundary, out=out, suffixes=MESH_SUFFIXES, report=report, component=component)
+    places = None if named is None else inputs.places_of(named, "corners")
     with staged(quiet) as clock, points_called(inputs.rows):
         result = reconstruct(
             inputs.points,
@@ -69,16 +71,16 @@ def mesh(
             connect=connect,
             weights=weights_rule(weights, neighbors),
             swap=SWAPS[swap],
-            layout=layout,
+            layout=layout_rule(domain, spacing, places),
             chart=CHARTS[uv],
             clock=clock,
         )
-    if report is not None:
-        run = run_report(inputs.points, result, clock, given_options(context), boundary_given=boundary is not None)
-        write_json(report, run)
     rows = inputs.rows[result.rows]
     points = inputs.scan.points[rows]
-    notes = write_mesh(out, points, result.triangles, uv=result.uv, attributes=carried(inputs, rows))
+    options, is_given = given_options(context), boundary is not None
+    run = run_report(inputs.scan.points, inputs.rows, result, clock, options, boundary_given=is_given)
+    with writing_json(report, run):
+        notes = write_mesh(out, points, result.triangles, uv=result.uv, attributes=carried(inputs, rows))
     if not quiet:
         lines = certificate_lines(result.certificate) + boundary_lines(result, points, found=boundary is None)
         lines += _rows_left(inputs, rows) + notes

@@ -10,7 +10,9 @@ from .choices import Component, Domain, Holes, Neighbors, Spacing, Weighting
 ScanArgument = Annotated[
     Path,
     typer.Argument(
-        metavar="SCAN", help="Point cloud: ply, obj, off, stl, glb, xyz, txt, csv, pts, npy, npz, las, laz, e57."
+        metavar="SCAN",
+        readable=False,
+        help="Point cloud: ply, obj, off, stl, glb, xyz, txt, csv, pts, npy, npz, las, laz, e57.",
     ),
 ]
 BoundaryOption = Annotated[
@@ -18,6 +20,7 @@ BoundaryOption = Annotated[
     typer.Option(
         "--boundary",
         metavar="LOOP.txt",
+        readable=False,
         help="Boundary points in order, one 0-based index a line; found, if not given.",
     ),
 ]

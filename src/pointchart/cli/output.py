@@ -11,7 +11,8 @@ from .inputs import Inputs
 
 def carried(inputs: Inputs, rows: Indices) -> Attributes:
     """Take along what the scan carries per point, and each vertex's row where not every row is a vertex."""
-    attributes = {name: values[rows] for name, values in inputs.scan.attributes.items()}
+    # A point_index that the scan carries names rows of yet another file.
+    attributes = {name: values[rows] for name, values in inputs.scan.attributes.items() if name != "point_index"}
     if len(rows) < len(inputs.scan.points):
         attributes["point_index"] = rows.astype(np.int32)
     return attributes

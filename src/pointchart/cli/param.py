@@ -2,16 +2,25 @@
 
 import sys
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
 from ..io import UV_SUFFIXES, write_uv
 from ..pipeline import parameterize_scan
-from ..report import solve_report, stages_report, write_json
+from ..report import solve_report, stages_report, writing_json
 from ..triangulate import coinciding
 from . import options as given
-from .choices import Domain, Spacing, connect_rule, layout_rule, outer_place, weights_rule
+from .choices import (
+    Domain,
+    Spacing,
+    check_exclusive,
+    connect_rule,
+    corner_names,
+    layout_rule,
+    outer_place,
+    weights_rule,
+)
 from .inputs import read_inputs
 from .output import carried, given_options
 from .progress import staged
@@ -36,24 +45,27 @@ def param(
     quiet: given.QuietOption = False,
 ) -> None:
     """Give every point of a scan planar parameters by the paper's method, without a mesh; row i is point i."""
-    connect, layout = connect_rule(neighbors, k, radius), layout_rule(domain, spacing, corners)
+    connect, named = connect_rule(neighbors, k, radius), corner_names(domain, corners)
+    check_exclusive(boundary, outer)
+    place = outer_place(outer)
     inputs = read_inputs(scan, boundary, out=out, suffixes=UV_SUFFIXES, report=report)
+    places = None if named is None else inputs.places_of(named, "corners")
     with staged(quiet) as clock:
         survey, mapped = parameterize_scan(
             inputs.points,
             inputs.loop,
-            outer=outer_place(outer),
+            outer=place,
             connect=connect,
             weights=weights_rule(weights, neighbors),
-            layout=layout,
+            layout=layout_rule(domain, spacing, places),
             clock=clock,
         )
     uv = mapped.uv[survey.cloud.places]
-    notes = write_uv(out, uv, points=inputs.points, attributes=carried(inputs, inputs.rows))
     doubled = len(coinciding(mapped.uv))
-    if report is not None:
-        run = {"options": given_options(context), "stages": stages_report(clock)}
-        write_json(report, run | {"solve": solve_report(mapped.solution), "coinciding_uv": doubled})
+    run: dict[str, Any] = {"options": given_options(context), "stages": stages_report(clock)}
+    run |= {"solve": solve_report(mapped.solution), "coinciding_uv": doubled}
+    with writing_json(report, run):
+        notes = write_uv(out, uv, points=inputs.points, attributes=carried(inputs, inputs.rows))
     if not quiet:
         print("\n".join(notes), end="\n" if notes else "", file=sys.stderr)
         solution = mapped.solution

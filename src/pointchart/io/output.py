@@ -49,8 +49,9 @@ def check_output(path: AnyPath, *, suffixes: Sequence[str], inputs: Iterable[Any
     if target.exists() and not os.access(target, os.W_OK):
         raise FormatError(f"{path}: the file exists and is read-only; remove it or choose another output")
     for source in inputs:
-        if target.exists() and Path(source).exists() and target.samefile(source):
-            raise InputError(f"{path}: the output is the input {source}, which would be lost; choose another output")
+        is_same = target.exists() and Path(source).exists() and target.samefile(source)
+        if is_same or _resolved(target) == _resolved(Path(source)):
+            raise InputError(f"{path}: the output is also {source}, which would be lost; choose another output")
     return target
 
 
