@@ -278,12 +278,12 @@ def test_the_scores_of_an_even_sampling_tell_its_boundary_exactly(name):
     assert scores.total[on_edge].min() > 0.8
     assert scores.total[~on_edge].max() < 0.4
     for part in ("width", "uncovered"):
-        assert getattr(scores, part)[on_edge].min() > 0.95
+        assert getattr(scores, part)[on_edge].min() > 0.9
 
 
 def test_the_centroid_of_neighbours_on_an_edge_nears_that_of_half_a_disc_with_the_root_of_their_number():
     counts, missing = np.array([20, 80, 320]), []
-    for k, half in zip(counts, (10, 20, 40), strict=True):
+    for k, half in zip(counts, (5, 7, 12), strict=True):
         sheet = shapes.grid(4 * half + 1, 2 * half + 1)
         missing.append(1 - scores_of(sheet.points, k).half_disc[2 * half])
     assert np.polyfit(np.log(counts), np.log(missing), 1)[0] == pytest.approx(-0.5, abs=0.1)

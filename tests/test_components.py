@@ -4,27 +4,28 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from strategies import seeds
 
-from pointchart import InputError, PointchartError, largest_component, nearest, reconstruct, shapes
-from pointchart.components import check_one_piece, label_parts
+from pointchart import InputError, PointchartError, largest_component, nearest, reconstruct, shapes, spacing
+from pointchart.components import APART, check_one_piece, label_parts
 from pointchart.neighbors import from_pairs
 
 SHEET, PIECE = shapes.relief(400, seed=1), shapes.disc(150, seed=2)
 FAR = np.array([0, 0, 30.0])
 
 
-def directed_graph(n, n_edges, seed):
+def directed_graph(n, n_edges, rng):
     """Draw a graph on n points, some of them without edges."""
-    ends = np.random.default_rng(seed).integers(0, n, (n_edges, 2))
+    ends = rng.integers(0, n, (n_edges, 2))
     ends = np.unique(ends[ends[:, 0] != ends[:, 1]], axis=0)
     return from_pairs(ends[:, 0], ends[:, 1], n)
 
 
-def parts_one_by_one(around):
-    """Gather the parts by following the edges either way."""
+def parts_one_by_one(points, around, step):
+    """Gather the parts by following edges of ten spacings at either end at most, either way."""
     beside = {i: set() for i in range(around.n_points)}
     for i, j in zip(around.rows.tolist(), around.indices.tolist(), strict=True):
-        beside[i].add(j)
-        beside[j].add(i)
+        if np.linalg.norm(points[i] - points[j]) <= APART * min(step[i], step[j]):
+            beside[i].add(j)
+            beside[j].add(i)
     parts, seen = [], set()
     for start in beside:
         part, todo = set(), [start]
@@ -38,18 +39,27 @@ def parts_one_by_one(around):
     return parts
 
 
+def check(points):
+    around = nearest(points, 20)
+    check_one_piece(points, around, spacing(points, around=around))
+
+
 @settings(max_examples=30)
-@given(st.integers(1, 40), st.integers(0, 50), seeds)
-def test_labels_are_those_of_the_parts_that_edges_join_either_way_the_largest_first(n, n_edges, seed):
-    around = directed_graph(n, n_edges, seed)
-    labels = label_parts(around)
+@given(st.integers(1, 40), st.integers(0, 80), seeds)
+def test_labels_are_those_of_the_parts_that_short_edges_join_either_way_the_largest_first(n, n_edges, seed):
+    rng = np.random.default_rng(seed)
+    points, step, around = rng.random((n, 3)), rng.uniform(0.02, 0.2, n), directed_graph(n, n_edges, rng)
+    labels = label_parts(points, around, step)
     found = [set(np.flatnonzero(labels == k).tolist()) for k in range(labels.max() + 1)]
-    assert sorted(map(sorted, found)) == sorted(map(sorted, parts_one_by_one(around)))
+    assert sorted(map(sorted, found)) == sorted(map(sorted, parts_one_by_one(points, around, step)))
     assert [len(part) for part in found] == sorted(map(len, found), reverse=True)
 
 
-def test_points_in_one_piece_pass():
-    check_one_piece(nearest(SHEET.points, 20))
+@pytest.mark.parametrize(
+    "scan", [SHEET, shapes.fold(2), shapes.grade(shapes.disc(1000), ratio=100), shapes.dumbbell(600, neck=2)]
+)
+def test_points_in_one_piece_pass(scan):
+    check(scan.points)
 
 
 @pytest.mark.parametrize(
@@ -62,11 +72,27 @@ def test_points_in_one_piece_pass():
 def test_separate_parts_are_told_with_their_sizes_and_a_point_of_each(sizes, shown):
     points = np.concatenate([shapes.disc(n, seed=k).points + k * FAR for k, n in enumerate(sizes)])
     part_of = np.repeat(np.arange(len(sizes)), sizes)
-    with pytest.raises(InputError, match=f"the points fall into {shown}") as caught:
-        check_one_piece(nearest(points, 20))
-    seeds_of = caught.value.points["seeds"]
-    assert [sizes[part_of[i]] for i in seeds_of] == sorted(sizes, reverse=True)
-    assert "mesh the largest (--component largest), or the parts one by one" in str(caught.value)
+    with pytest.raises(InputError, match=f"the points fall into {shown}.*; take the largest .*--component") as caught:
+        check(points)
+    assert [sizes[part_of[i]] for i in caught.value.points["seeds"]] == sorted(sizes, reverse=True)
+
+
+@pytest.mark.parametrize("scale", [1.0, 1e-5, 3e4])
+def test_a_stray_belongs_to_a_sheet_up_to_ten_spacings_away(scale):
+    sheet = shapes.grid(21, 21).points
+    joined, apart = (scale * np.r_[sheet, [[10, 10, factor * APART]]] for factor in (0.999, 1.001))
+    check(joined)
+    assert len(largest_component(joined)) == 442
+    with pytest.raises(InputError, match="2 separate parts, of 441 and 1 points") as caught:
+        check(apart)
+    assert caught.value.points["seeds"][1] == 441
+    assert np.array_equal(largest_component(apart), np.arange(441))
+
+
+@pytest.mark.parametrize("n_strays", [1, 5, 19])
+def test_strays_too_few_to_be_neighbours_of_each_other_alone_are_left_out(n_strays):
+    strays = FAR + np.random.default_rng(n_strays).uniform(-5, 5, (n_strays, 3))
+    assert np.array_equal(largest_component(np.r_[strays, SHEET.points]), np.arange(n_strays, n_strays + 400))
 
 
 @pytest.mark.parametrize("seed", range(3))
@@ -107,3 +133,18 @@ def test_the_largest_part_alone_is_reconstructed_where_the_whole_scan_is_refused
 def test_points_that_are_not_finite_are_refused():
     with pytest.raises(InputError, match="1 points are NaN or infinite, the first at index 3"):
         largest_component(np.where(np.arange(400)[:, None] == 3, np.inf, SHEET.points))
+
+
+@pytest.mark.parametrize("n_strays", [1, 20])
+def test_strays_over_ten_spacings_away_are_a_part_however_few_they_are(n_strays):
+    strays = SHEET.points.mean(axis=0) + [0, 0, 14 * SHEET.spacing] + 0.1 * SHEET.points[:n_strays] * SHEET.spacing
+    points = np.r_[SHEET.points, strays]
+    assert np.array_equal(largest_component(points), np.arange(400))
+    with pytest.raises(InputError, match=f"2 separate parts, of 400 and {n_strays} points"):
+        reconstruct(points)
+
+
+def test_links_join_up_to_ten_spacings_of_the_denser_end():
+    points = np.array([[0.0, 0, 0], [1, 0, 0], [11, 0, 0], [21, 1, 0]])
+    assert label_parts(points, nearest(points, 3), np.array([1.0, 1, 4, 4])).tolist() == [0, 0, 0, 0]
+    assert label_parts(points, nearest(points, 3), np.array([0.9, 0.9, 4, 4])).tolist() == [0, 0, 1, 1]

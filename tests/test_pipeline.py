@@ -12,10 +12,12 @@ from pointchart import (
     StageClock,
     ball,
     bicgstab,
+    bridge_gaps,
     centripetal_steps,
     chord_length_steps,
     delaunay_star,
     keep_edges,
+    leave_gaps_open,
     mean_value,
     multigrid,
     nearest,
@@ -36,6 +38,7 @@ from pointchart import (
 )
 from pointchart.boundary import chord_length_on_circle, places_of
 from pointchart.mesh import half_edges
+from pointchart.pipeline import TRIALS
 
 SIMULATED = {
     "relief": lambda: shapes.relief(600, seed=2),
@@ -58,6 +61,14 @@ METHODS = [
     ("delaunay", mean_value),
 ]
 SQUARE = np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]])
+
+
+def lampshade(seed=0):
+    """Return a wide cone cut off at the top, in any order, with its narrow and its wide rim."""
+    ring = shapes.shuffle(shapes.annulus(), seed=seed)
+    radius = np.linalg.norm(ring.points, axis=1)
+    narrow, wide = sorted(ring.loops, key=lambda loop: radius[loop[0]])
+    return ring.points - radius[:, None] * [0, 0, 1], narrow, wide
 
 
 def stars(points):
@@ -390,6 +401,114 @@ def test_corners_off_the_boundary_are_named_by_their_rows():
             shape.points,
             layout=lambda points, loop: on_square(chord_length_steps(points, loop), places_of(corners, loop)),
         )
+
+
+# Which loop, and what becomes of gaps
+
+
+def test_the_next_loop_is_tried_where_a_mesh_does_not_stand_and_the_failure_is_kept_with_rows_of_the_scan():
+    points, narrow, wide = lampshade(seed=4)
+    asked = []
+
+    def not_the_first(rims):
+        asked.append(rims)
+        if len(asked) == 1:
+            raise SolveError("not round point {here}", here=rims.loop[0])
+        return []
+
+    result = reconstruct(points, gaps=not_the_first)
+    (failure,) = result.evidence.failures
+    assert set(result.loop) == set(narrow)
+    assert failure.points["here"][0] in wide
+    assert str(failure) == f"not round point {failure.points['here'][0]}"
+    assert set(result.evidence.candidates[0].loop) == set(narrow)
+    assert set(result.evidence.candidates[1].loop) == set(wide)
+
+
+def test_no_more_than_three_loops_are_tried_and_the_first_failure_is_told():
+    # On a sphere with gaps every gap may be the boundary.
+    scan = shapes.pierce(shapes.sphere(3000), n_gaps=5, radius_in_spacings=4)
+    asked = []
+
+    def none_will_do(rims):
+        asked.append(rims.loop)
+        raise SolveError(f"refused {len(asked)}")
+
+    with pytest.raises(SolveError, match="refused 1"):
+        reconstruct(scan.points, gaps=none_will_do)
+    candidates = survey_scan(scan.points).candidates
+    assert len(asked) == TRIALS < len(candidates)
+    assert [set(loop) for loop in asked] == [set(candidate.loop) for candidate in candidates[:TRIALS]]
+
+
+@pytest.mark.parametrize("says", ["loop", "outer"])
+def test_the_loop_that_was_asked_for_is_the_only_one_tried(says):
+    points, narrow, wide = lampshade()
+    asked = []
+
+    def none_will_do(rims):
+        asked.append(rims.loop)
+        raise SolveError("refused")
+
+    for rim in (narrow, wide):
+        with pytest.raises(SolveError, match="refused"):
+            reconstruct(points, gaps=none_will_do, **{says: rim if says == "loop" else points[rim[0]]})
+        assert [len(loop) for loop in asked] == [len(rim)]
+        asked.clear()
+
+
+def test_a_sound_scan_has_no_failures():
+    assert reconstruct(SIMULATED["sculpture"]().points).evidence.failures == []
+
+
+def test_a_boundary_and_a_place_of_it_are_not_taken_together():
+    points, narrow, wide = lampshade()
+    for stage in (reconstruct, parameterize_scan):
+        with pytest.raises(InputError, match="both a boundary and a place of the boundary are given"):
+            stage(points, wide, outer=points[narrow[0]])
+
+
+@pytest.mark.parametrize("rim", [0, 1])
+def test_the_papers_parameters_take_the_loop_that_a_place_says(rim):
+    points, *loops = lampshade()
+    survey, mapped = parameterize_scan(points, outer=points[loops[rim][5]], weights=uniform)
+    assert set(survey.cloud.rows[mapped.loop]) == set(loops[rim])
+    assert np.linalg.norm(mapped.uv[mapped.loop], axis=1) == pytest.approx(1)
+
+
+@pytest.mark.parametrize("rule", [bridge_gaps, leave_gaps_open])
+@pytest.mark.parametrize(("scale", "offset"), [(1e-6, (0, 0, 0)), (2.0**10, (0, 0, 0)), (1e3, (4e5, 5e6, 100))])
+def test_units_and_offsets_change_neither_triangles_nor_holes(rule, scale, offset):
+    scan = shapes.pierce(shapes.relief(2000, seed=1), n_gaps=2, seed=1)
+    still, moved = (reconstruct(points, gaps=rule) for points in (scan.points, scale * scan.points + np.array(offset)))
+    assert in_rows(moved) == in_rows(still)
+    assert moved.certificate.holes == still.certificate.holes == (2 if rule is leave_gaps_open else 0)
+    for one, other in zip(still.evidence.bridges, moved.evidence.bridges, strict=True):
+        assert np.array_equal(one.points, other.points)
+        assert other.rim_length == pytest.approx(scale * one.rim_length, rel=1e-6)
+        assert other.rim_in_spacings == pytest.approx(one.rim_in_spacings, rel=1e-6)
+
+
+@given(seeds)
+@settings(max_examples=3)
+def test_the_numbering_changes_no_hole(seed):
+    scan = shapes.pierce(shapes.relief(2000, seed=1), n_gaps=2, seed=1)
+    order = np.random.default_rng(seed).permutation(len(scan.points))
+    mixed = reconstruct(scan.points[order], gaps=leave_gaps_open)
+    assert oriented(order[mixed.triangles]) == in_rows(reconstruct(scan.points, gaps=leave_gaps_open))
+
+
+@pytest.mark.parametrize("layout", [chord_length_on_circle, square_layout])
+@pytest.mark.parametrize("weights", [None, mean_value])
+def test_holes_are_left_open_whatever_the_domain_and_the_weights(layout, weights):
+    scan = shapes.pierce(shapes.disc(2000, seed=2), n_gaps=2, seed=2)
+    result = reconstruct(scan.points, gaps=leave_gaps_open, layout=layout, weights=weights)
+    assert result.certificate.holes == 2
+    assert result.certificate.is_as_asked
+    assert result.certificate.is_one_to_one
+
+
+# Evidence
 
 
 def test_the_stages_are_timed_in_order():

@@ -27,12 +27,26 @@ DISCS = {
     "thinned scan": lambda: shapes.thin(shapes.demo_scan()),
     "thinned cap": lambda: shapes.thin(shapes.hemisphere(2000, angle=150)),
     "noisy, shuffled relief": lambda: shapes.shuffle(shapes.add_noise(shapes.relief(500))),
+    "rolled disc": lambda: shapes.roll(shapes.disc(500), 270),
+    "dumbbell": lambda: shapes.dumbbell(600),
+    "dumbbell with a neck of two spacings": lambda: shapes.dumbbell(600, neck=2),
+    "bumpy dumbbell": lambda: shapes.raise_bumps(shapes.dumbbell(600)),
+    "graded disc": lambda: shapes.grade(shapes.disc(500), ratio=40),
+    "lines three times as far apart": lambda: shapes.laser_scan(shapes.sculpted_face, lines=30, anisotropy=3, noise=0),
+    "lines five times as far apart": lambda: shapes.laser_scan(shapes.sculpted_face, lines=30, anisotropy=5, noise=0),
 }
 NOT_DISCS = {
     "annulus": (shapes.annulus, 0, [96, 96]),
     "moebius": (shapes.moebius, 0, [192]),
     "sphere": (lambda: shapes.sphere(500), 2, []),
     "torus": (shapes.torus, 0, []),
+}
+PIERCED = {
+    "disc": lambda n_gaps: shapes.pierce(shapes.disc(1500, seed=1), n_gaps=n_gaps, seed=1),
+    "relief": lambda n_gaps: shapes.pierce(shapes.relief(1500), n_gaps=n_gaps, radius_in_spacings=3),
+    "graded disc": lambda n_gaps: shapes.pierce(shapes.grade(shapes.disc(1500)), n_gaps=n_gaps, radius_in_spacings=3),
+    "sphere": lambda n_gaps: shapes.pierce(shapes.sphere(1000), n_gaps=n_gaps, radius_in_spacings=3),
+    "torus": lambda n_gaps: shapes.pierce(shapes.torus(64, 24), n_gaps=n_gaps, radius_in_spacings=3),
 }
 SEEDED = {
     "disc": lambda seed: shapes.disc(100, seed=seed),
@@ -41,6 +55,8 @@ SEEDED = {
     "thin": lambda seed: shapes.thin(shapes.grid(9, 9), seed=seed),
     "shuffle": lambda seed: shapes.shuffle(shapes.grid(9, 9), seed=seed),
     "scan": lambda seed: shapes.demo_scan(seed=seed),
+    "bumps": lambda seed: shapes.raise_bumps(shapes.dumbbell(400), seed=seed),
+    "pierce": lambda seed: shapes.pierce(shapes.disc(500), seed=seed),
 }
 
 
@@ -296,6 +312,114 @@ def test_thinning_keeps_the_points_as_they_are():
     assert {tuple(point) for point in shapes.thin(flat).points.tolist()} < before
 
 
+@pytest.mark.parametrize("angle", [30, 180, 350])
+def test_rolling_is_an_isometry(angle):
+    flat = shapes.disc(1000)
+    rolled = shapes.roll(flat, angle)
+    radius = np.ptp(flat.points[:, 0]) / radians(angle)
+    assert np.allclose(np.hypot(rolled.points[:, 0], rolled.points[:, 2]), radius)
+    assert np.array_equal(rolled.points[:, 1], flat.points[:, 1])
+    assert np.array_equal(rolled.triangles, flat.triangles)
+    # A chord of a cylinder is shorter than its arc by a share of (arc / radius)^2 / 24 at most.
+    flat_lengths, lengths = edge_lengths(flat), edge_lengths(rolled)
+    assert (lengths <= flat_lengths * (1 + 1e-12)).all()
+    assert (lengths >= flat_lengths * (1 - (flat_lengths / radius) ** 2 / 24 - 1e-12)).all()
+
+
+def test_a_bent_sheet_is_a_grid_rolled_up():
+    rolled, bent = shapes.roll(shapes.grid(21, 9), 200), shapes.bent_sheet(200, nx=21, ny=9)
+    assert np.array_equal(rolled.points, bent.points)
+
+
+@pytest.mark.parametrize("height", [0.1, 0.5])
+def test_bumps_move_points_up_and_down_only_and_in_proportion(height):
+    flat = shapes.dumbbell(500)
+    low, high = shapes.raise_bumps(flat, height=height, seed=3), shapes.raise_bumps(flat, height=2 * height, seed=3)
+    assert np.array_equal(low.points[:, :2], flat.points[:, :2])
+    assert np.allclose(2 * low.points[:, 2], high.points[:, 2])
+    assert np.ptp(low.points[:, 2]) > 0
+
+
+@pytest.mark.parametrize("n", [1000, 3000])
+@pytest.mark.parametrize("neck", [2, 5, 8])
+def test_the_neck_of_a_dumbbell_has_the_width_asked_for_and_its_lobes_the_rest(n, neck):
+    flat = shapes.dumbbell(n, neck=neck)
+    x, y, z = flat.points.T
+    assert len(flat.points) == pytest.approx(n, rel=0.12)
+    assert np.array_equal(z, np.zeros(len(z)))
+    assert np.ptp(y[np.abs(x) < 0.15]) == pytest.approx(neck * flat.spacing, abs=0.7 * flat.spacing)
+    away = np.hypot(np.abs(x) - 0.6, y)
+    assert (away <= 0.4)[np.abs(x) > 0.6].all()
+    assert 1 - flat.spacing < np.abs(x).max() <= 1
+
+
+def test_grading_by_one_changes_nothing():
+    flat = shapes.disc(200)
+    assert np.array_equal(shapes.grade(flat, ratio=1).points, flat.points)
+
+
+@pytest.mark.parametrize("ratio", [4, 10, 40])
+def test_grading_maps_the_disc_to_itself_by_a_conformal_map_with_densities_of_that_ratio(ratio):
+    flat = shapes.disc(4000, jitter=0)
+    graded = shapes.grade(flat, ratio=ratio)
+    norm = np.linalg.norm(graded.points, axis=1)
+    assert np.allclose(norm[flat.boundary], 1)
+    assert norm.max() < 1 + 1e-12
+    before, after = signed_areas(flat.uv, flat.triangles), signed_areas(graded.points[:, :2], flat.triangles)
+    shrunk = after / before
+    x = graded.points[flat.triangles, 0].mean(axis=1)
+    assert shrunk[x.argmin()] / shrunk[x.argmax()] == pytest.approx(ratio, rel=0.1)
+    # Conformal: all edges of a small triangle change alike.
+    a, b, c = flat.points[flat.triangles].transpose(1, 0, 2)
+    d, e, f = graded.points[flat.triangles].transpose(1, 0, 2)
+    lengths = [
+        np.linalg.norm(p - q, axis=1) / np.linalg.norm(r - s, axis=1) for p, q, r, s in ((d, e, a, b), (e, f, b, c))
+    ]
+    assert np.allclose(lengths[0], lengths[1], rtol=0.1)
+
+
+@pytest.mark.parametrize("n_gaps", [1, 3])
+@pytest.mark.parametrize("make", PIERCED.values(), ids=PIERCED)
+def test_every_gap_is_a_loop_and_takes_one_from_the_euler_characteristic(make, n_gaps):
+    whole, scan = make(0), make(n_gaps)
+    assert len(scan.loops) == len(whole.loops) + n_gaps
+    assert euler_characteristic(scan) == euler_characteristic(whole) - n_gaps
+    assert has_one_fan_a_point(scan)
+    assert len(np.unique(scan.triangles)) == len(scan.points)
+    if whole.loops:
+        assert np.array_equal(scan.points[scan.boundary], whole.points[whole.boundary])
+
+
+@pytest.mark.parametrize("radius", [3, 4, 6])
+def test_a_gap_is_a_ball_without_points_and_all_other_points_stay_in_order(radius):
+    whole = shapes.disc(3000, seed=1)
+    scan = shapes.pierce(whole, n_gaps=1, radius_in_spacings=radius, seed=1)
+    far, kept = cKDTree(scan.points).query(whole.points)
+    gone = whole.points[far > 0]
+    middle = gone[np.argmin(np.linalg.norm(gone - gone.mean(axis=0), axis=1))]
+    reach = np.linalg.norm(gone - middle, axis=1).max()
+    assert reach == pytest.approx(radius * whole.spacing, rel=0.25)
+    assert np.array_equal(kept[far == 0], np.arange(len(scan.points)))
+    left = np.linalg.norm(scan.points - middle, axis=1)
+    assert left.min() > reach - whole.spacing
+
+
+def test_gaps_keep_two_radii_from_each_other_and_one_from_the_boundary():
+    whole = shapes.disc(4000, seed=2)
+    scan = shapes.pierce(whole, n_gaps=8, radius_in_spacings=4, seed=2)
+    radius = 4 * whole.spacing
+    outer, *gaps = (cKDTree(scan.points[loop]) for loop in scan.loops)
+    assert len(gaps) > 5
+    for k, gap in enumerate(gaps):
+        assert gap.query(outer.data)[0].min() > 0.5 * radius
+        assert all(gap.query(other.data)[0].min() > radius for other in gaps[:k])
+
+
+def test_there_are_fewer_gaps_where_there_is_no_room():
+    assert len(shapes.pierce(shapes.disc(500), n_gaps=99, radius_in_spacings=6).loops) < 10
+    assert len(shapes.pierce(shapes.disc(100), radius_in_spacings=50).loops) == 1
+
+
 def test_shuffling_is_a_renumbering():
     shape = shapes.relief(200)
     mixed = shapes.shuffle(shape, seed=3)
@@ -392,7 +516,12 @@ def test_peeling_leaves_a_disc_with_every_point(seed, limit):
         (lambda: shapes.tube(0), "length 0 radii"),
         (lambda: shapes.tube(1, n_around=7), "7 points around"),
         (lambda: shapes.bent_sheet(360), "360 degrees"),
+        (lambda: shapes.roll(shapes.disc(50), 0), "roll of 0 degrees is flat or meets itself"),
+        (lambda: shapes.roll(shapes.disc(50), 360), "roll of 360 degrees"),
         (lambda: shapes.fold(40), "gap of 40 spacings"),
+        (lambda: shapes.dumbbell(99), "dumbbell of 99 points"),
+        (lambda: shapes.dumbbell(500, neck=1.9), "neck of 1.9 spacings does not fit a dumbbell of 500 points"),
+        (lambda: shapes.dumbbell(500, neck=30), "neck of 30 spacings"),
         (lambda: shapes.annulus(2, 5), "2 by 5 points, around and across, are too few for an annulus"),
         (lambda: shapes.annulus(inner_radius=1), "inner radius of 1"),
         (lambda: shapes.moebius(width=2), "width of 2"),

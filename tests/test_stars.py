@@ -308,7 +308,7 @@ def test_a_smoothed_sphere_shrinks_with_the_square_of_the_spacing():
 
 def test_a_sheet_three_spacings_away_pulls_no_inner_point():
     sheet = grid(15, 12)
-    sheets = np.r_[sheet.points, sheet.points + [0.3, 0.2, 3.0]]
+    sheets = np.r_[sheet.points, sheet.points + np.array([0.3, 0.2, 3.0])]
     inside = ((sheet.uv > 1) & (sheet.uv < [13, 10])).all(axis=1)
     assert np.abs(smooth(sheets, nearest(sheets, 20))[:180] - sheet.points)[inside].max() < 1e-12
 

@@ -56,7 +56,7 @@ def test_a_boundary_that_was_given_is_the_only_trial():
 @pytest.mark.parametrize("k", range(4))
 @pytest.mark.parametrize("unit", [1.0, 1000.0])
 def test_a_place_on_a_loop_makes_that_loop_the_boundary_and_keeps_the_others(k, unit):
-    points = unit * (PIERCED.points + [5, -3, 2])
+    points = unit * (PIERCED.points + np.array([5, -3, 2]))
     wanted = PIERCED.loops[k]
     survey = survey_scan(points, outer=points[wanted].mean(axis=0) if k else points[wanted[3]])
     away = cKDTree(points[wanted]).query(survey.points[survey.loop])[0]
@@ -118,7 +118,7 @@ def test_rows_that_repeat_a_point_may_name_it_on_the_boundary():
 
 
 def test_parts_are_named_by_the_rows_of_the_scan():
-    apart = np.r_[shapes.grid(12, 9).points, shapes.grid(8, 7).points + [0, 0, 50]]
+    apart = np.r_[shapes.grid(12, 9).points, shapes.grid(8, 7).points + np.array([0, 0, 50])]
     order = np.random.default_rng(2).permutation(len(apart))
     with pytest.raises(InputError, match="2 separate parts, of 108 and 56 points") as caught:
         survey_scan(apart[order])

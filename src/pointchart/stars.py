@@ -43,7 +43,7 @@ def break_ties(points: ArrayLike, spacing: Floats) -> Points:
     return cloud + TIE_BREAK * spacing[:, None] * np.random.default_rng(0).uniform(-1.0, 1.0, cloud.shape)
 
 
-def normals(points: ArrayLike, around: Neighborhoods) -> Floats:
+def normals(points: ArrayLike, around: Neighborhoods, *, fading: float = 0.0) -> Floats:
     """Fit the least-squares plane through each point and its neighbours.
 
     Parameters
@@ -51,6 +51,9 @@ def normals(points: ArrayLike, around: Neighborhoods) -> Floats:
     points : (n, 3) array
     around : Neighborhoods
         The points that each plane is fitted to, besides its own.
+    fading : float
+        From 0, all count alike, to 1: the weight falls with the distance d as (1 - fading d^2 / R^2)^2, where R is that
+        of the farthest neighbour, which may lie on another sheet.
 
     Returns
     -------
@@ -65,7 +68,7 @@ def normals(points: ArrayLike, around: Neighborhoods) -> Floats:
     """
     cloud = check_points(points)
     check_neighbors(around.indices, around.n_points, len(cloud))
-    return _planes(cloud, around, fading=0.0)[0]
+    return _planes(cloud, around, fading)[0]
 
 
 def smooth(points: ArrayLike, around: Neighborhoods) -> Points:
@@ -94,7 +97,7 @@ def smooth(points: ArrayLike, around: Neighborhoods) -> Points:
     """
     cloud = check_points(points)
     check_neighbors(around.indices, around.n_points, len(cloud))
-    normal, offset = _planes(cloud, around, fading=FADING)
+    normal, offset = _planes(cloud, around, FADING)
     return np.asarray(cloud + offset[:, None] * normal)
 
 
@@ -166,7 +169,7 @@ def nearest_star(points: ArrayLike, around: Neighborhoods) -> Neighborhoods:
     """
     cloud = check_points(points)
     check_neighbors(around.indices, around.n_points, len(cloud))
-    normal = _planes(cloud, around, fading=FADING)[0]
+    normal = normals(cloud, around, fading=FADING)
     star, local, count, is_open, diameter = _stars(cloud, normal, around)
     found = _compact(around, star, local, count, is_open)
     reach = np.linalg.norm(cloud[around.indices[around.indptr[1:] - 1]] - cloud, axis=1)
@@ -197,7 +200,7 @@ def _replace_rows(found: Neighborhoods, rows: Indices, by: Neighborhoods) -> Nei
     return Neighborhoods(indptr, indices, local, np.where(is_replaced, by.is_open, found.is_open))
 
 
-def _planes(cloud: Points, around: Neighborhoods, *, fading: float) -> tuple[Floats, Floats]:
+def _planes(cloud: Points, around: Neighborhoods, fading: float) -> tuple[Floats, Floats]:
     """Return the normals of the planes, and the height of each plane above its point."""
     normal, offset = np.empty_like(cloud), np.empty(len(cloud))
     over_ranges(

@@ -11,7 +11,7 @@ from .._kernels.sides import survey_sides
 from .._parallel import over_ranges
 from ..errors import InputError
 from ..neighbors import Neighborhoods
-from ..stars import STEEPEST, normals
+from ..stars import FADING, STEEPEST, normals
 from ..typing import Floats, Mask, Points, Triangles
 
 WIDE_STAR = 1.0  # circumradius of a star in spacings where the doubt begins: that of an even sampling is 0.6
@@ -185,7 +185,7 @@ def corner_angles(points: Points, triangles: Triangles) -> Floats:
 def _sides(cloud: Points, around: Neighborhoods) -> tuple[Floats, Floats]:
     """Return the largest free angle, and the distance of the neighbours' centroid in their mean distances."""
     check_neighbors(around.indices, around.n_points, len(cloud))
-    normal, angle, offset = normals(cloud, around), np.empty(len(cloud)), np.empty(len(cloud))
+    normal, angle, offset = normals(cloud, around, fading=FADING), np.empty(len(cloud)), np.empty(len(cloud))
     over_ranges(
         lambda first, last: survey_sides(
             cloud, normal, around.indptr, around.indices, STEEPEST, first, last, angle, offset
