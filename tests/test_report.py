@@ -150,8 +150,8 @@ def test_every_bridge_is_a_gap_where_the_scan_ends_and_a_doubt_where_it_does_not
     (gap,) = result.evidence.bridges
     (line,) = boundary_lines(result, points, found=False)[1:]
     assert line == f"1 gaps of the scan, bridged, the largest {gap.rim_in_spacings:.0f} spacings round"
-    doubt = replace(gap, share=0.33)
-    doubtful = with_evidence(result, bridges=[doubt, gap, replace(gap, share=0.34)])
+    doubt = replace(gap, share=0.49)
+    doubtful = with_evidence(result, bridges=[doubt, gap, replace(gap, share=0.5)])
     report = run_report(points, np.arange(len(points)), doubtful, StageClock(), {}, boundary_given=True)["boundary"]
     assert (len(report["gaps"]), len(report["doubts"])) == (2, 1)
     assert report["doubts"][0] == {

@@ -11,7 +11,7 @@ from .mesh import half_edges
 from .typing import Floats, Indices, Mask, Points, Triangles
 
 LONG_EDGE = 4.0  # local spacings
-GAP_SHARE = 1 / 3  # of a bridge's corners that score as boundary points, from which on it lies over a gap of the scan
+GAP_SHARE = 0.5  # of a bridge's corners that score as boundary points, from which on it lies over a gap of the scan
 
 
 @dataclass(frozen=True, slots=True, eq=False)

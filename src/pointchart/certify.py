@@ -138,7 +138,7 @@ def certify(
     Raises
     ------
     InputError
-        If triangles name points that are not there, or uv has another length.
+        If triangles name points that are not there, uv has another length, or `holes` is negative.
 
     Examples
     --------
@@ -150,6 +150,8 @@ def certify(
     """
     cloud = check_points(points)
     faces = check_triangles(triangles, len(cloud))
+    if holes < 0:
+        raise InputError(f"a disc cannot have {holes} holes; give 0 or more")
     edges = half_edges(faces, len(cloud))
     fan_counts = fans(edges, len(cloud))
     n_edges, n_overfull = _count_edges(edges)

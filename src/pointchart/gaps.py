@@ -5,13 +5,18 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .boundary import Candidate
 from .bridges import Bridge
 from .errors import SolveError
-from .typing import Indices, Loop, Points, Triangles
+from .typing import Floats, Indices, Loop, Points, Triangles
 
 SECOND_BOUNDARY = 0.25  # a gap with this share of the boundary's length may as well be the boundary
 SECOND_SPACINGS = 24.0  # but a shorter one is a gap of the sampling, however short the boundary is
+SURELY_SECOND = 0.5  # unless it has this share of the boundary's length, and
+LEAST_SPACINGS = 12.0  # this length
+SURE = 0.75  # share of its length along boundary points that a loop needs to be a second boundary without a bridge
 TORN_SPACINGS = 24.0  # rim of a bridge on a clear surface without a gap, from which on the surface is no disc
+TORN_IN_ALL = 60.0  # rims of all such bridges together
 MESSY_SPACINGS = 60.0  # the same where stars dispute their links: close sheets are meshed wrongly there, on a disc too
 MESSY_SHARE = 0.4  # or with this share of the boundary's length
 CLEAR = 0.05  # disputed links a point up to which a surface is clear
@@ -24,18 +29,20 @@ class Rims:
     Attributes
     ----------
     points : (n, 3) float64
+    spacing : (n,) float64
     loop : (b,) int64
         The boundary.
     gaps : list of Bridge
         The longest rim first.
-    others : list of (b,) int64
+    others : list of Candidate
         Further loops that were found.
     """
 
     points: Points
+    spacing: Floats
     loop: Loop
     gaps: list[Bridge]
-    others: list[Loop]
+    others: list[Candidate]
 
     @property
     def length(self) -> float:
@@ -43,22 +50,42 @@ class Rims:
         return perimeter(self.points, self.loop)
 
     @property
-    def second_boundaries(self) -> list[Bridge]:
-        """The gaps that may as well be the boundary: a quarter as long or more, and no matter of sampling."""
-        least = SECOND_BOUNDARY * self.length
-        return [gap for gap in self.gaps if gap.rim_length >= least and gap.rim_in_spacings >= SECOND_SPACINGS]
+    def second_boundary(self) -> tuple[Loop, float] | None:
+        """The points and the length of the longest gap or loop that may as well be the boundary, None if there is none.
 
-    def loop_round(self, gap: Bridge) -> Loop | None:
-        """Return the loop found on which most corners of a gap's bridge lie, or None if there is none."""
-        shares = [np.isin(gap.points, loop).mean() for loop in self.others]
-        return self.others[int(np.argmax(shares))] if shares and max(shares) > 0.5 else None
+        A gap may be if it is a quarter as long as the boundary and no matter of sampling, or half as long. A loop that
+        no long edges bridge may be if it is half as long: between close sheets, the mesh closes it by short ones.
+        """
+        whole, found = self.length, []
+        for gap in self.gaps:
+            share, size = gap.rim_length / whole, gap.rim_in_spacings
+            if share >= SECOND_BOUNDARY and size >= (LEAST_SPACINGS if share >= SURELY_SECOND else SECOND_SPACINGS):
+                found.append((self.loop_round(gap), gap.rim_length))
+        bridged = [self.loop_round(gap) for gap in self.gaps]
+        for other in self.others:
+            length = perimeter(self.points, other.loop)
+            size = length / float(np.median(self.spacing[other.loop]))
+            is_long = length >= SURELY_SECOND * whole and size >= SECOND_SPACINGS
+            if is_long and other.share >= SURE and not any(loop is other.loop for loop in bridged):
+                found.append((other.loop, length))
+        return max(found, key=lambda second: second[1], default=None)
+
+    @property
+    def is_outgrown(self) -> bool:
+        """Whether a gap is longer than the boundary, which then is a false one, if another does better."""
+        return self.second_boundary is not None and self.second_boundary[1] > self.length
+
+    def loop_round(self, gap: Bridge) -> Loop:
+        """Return the loop found on which most corners of a gap's bridge lie, or its corners if there is none."""
+        shares = [np.isin(gap.points, other.loop).mean() for other in self.others]
+        return self.others[int(np.argmax(shares))].loop if shares and max(shares) > 0.5 else gap.points
 
     def patches(self, gaps: Sequence[Bridge], triangles: Triangles) -> list[Indices]:
         """Return the triangles of each gap: its bridge, then those with all corners on the loop around it."""
         found = []
         for gap in gaps:
-            loop, is_round = self.loop_round(gap), np.zeros(len(self.points), np.bool_)
-            is_round[gap.points if loop is None else loop] = True
+            is_round = np.zeros(len(self.points), np.bool_)
+            is_round[self.loop_round(gap)] = True
             fringe = np.setdiff1d(np.flatnonzero(is_round[triangles].all(axis=1)), gap.triangles)
             found.append(np.concatenate([gap.triangles, fringe]))
         return found
@@ -75,11 +102,9 @@ def refuse_second_boundary(rims: Rims) -> list[Bridge]:
     SolveError
         Naming both loops.
     """
-    if not rims.second_boundaries:
+    if rims.second_boundary is None:
         return []
-    gap = rims.second_boundaries[0]
-    found = rims.loop_round(gap)
-    second, length = (gap.points, gap.rim_length) if found is None else (found, perimeter(rims.points, found))
+    second, length = rims.second_boundary
     raise SolveError(
         f"the surface has a second boundary, so it is no disc: besides the loop of {len(rims.loop)} points, "
         f"{rims.length:.4g} long, through point {{here}} at {place_of(rims.points, rims.loop[0])}, there is one of "
@@ -118,20 +143,27 @@ def check_torn(rims: Rims, bridges: Sequence[Bridge], disputed: Indices, *, is_g
     SolveError
     """
     length = rims.length
-    for bridge in bridges:
-        is_clear = disputed[bridge.points].mean() <= CLEAR or bridge.rim_length >= MESSY_SHARE * length
-        if bridge.is_gap or bridge.rim_in_spacings < (TORN_SPACINGS if is_clear else MESSY_SPACINGS):
-            continue
-        if is_given and bridge.rim_length < SECOND_BOUNDARY * length:
-            continue
-        raise SolveError(
-            f"the surface is no disc: {len(bridge.points)} points round point {{there}} at "
-            f"{place_of(rims.points, bridge.points[0])} are joined by edges of over four spacings, "
-            f"{bridge.rim_in_spacings:.0f} spacings round, although the scan has no gap there, as on a handle, "
-            "a twist, a part so long that its map collapses, or with a false boundary; cut the scan there, or give "
-            "the boundary",
-            there=bridge.points[0],
-        )
+    doubtful = [bridge for bridge in bridges if not bridge.is_gap and bridge.rim_in_spacings >= LEAST_SPACINGS]
+    clear = [bridge for bridge in doubtful if disputed[bridge.points].mean() <= CLEAR]
+    is_torn_in_all = sum(bridge.rim_in_spacings for bridge in clear) >= TORN_IN_ALL
+    torn = [bridge for bridge in clear if is_torn_in_all or bridge.rim_in_spacings >= TORN_SPACINGS]
+    torn += [
+        bridge
+        for bridge in doubtful
+        if bridge.rim_in_spacings >= MESSY_SPACINGS
+        or (bridge.rim_in_spacings >= TORN_SPACINGS and bridge.rim_length >= MESSY_SHARE * length)
+    ]
+    least = SECOND_BOUNDARY * length if is_given else 0.0
+    for bridge in torn:
+        if bridge.rim_length >= least:
+            raise SolveError(
+                f"the surface is no disc: {len(bridge.points)} points round point {{there}} at "
+                f"{place_of(rims.points, bridge.points[0])} are joined by edges of over four spacings, "
+                f"{bridge.rim_in_spacings:.0f} spacings round, although the scan has no gap there, as on a handle, "
+                "a twist, a part so long that its map collapses, or with a false boundary; cut the scan there, or give "
+                "the boundary",
+                there=bridge.points[0],
+            )
 
 
 def perimeter(points: Points, loop: Loop) -> float:

@@ -172,7 +172,7 @@ def dumbbell(n: int, *, neck: float = 8.0) -> Shape:
     Parameters
     ----------
     n : int
-        Points in all, to within a few per cent; at least 100.
+        About the points in the lobes; at least 100.
     neck : float
         Width of the neck in spacings, at least 2.
 
@@ -195,7 +195,10 @@ def dumbbell(n: int, *, neck: float = 8.0) -> Shape:
     # The lobes have radius 0.4 and 87% of the points in the hexagonal packing of the plane.
     spacing = sqrt(2 * pi * 0.4**2 / (n * sqrt(3) / 2))
     if n < 100 or not neck >= 2.0 or neck * spacing > 0.6:
-        raise InputError(f"a neck of {neck} spacings does not fit a dumbbell of {n} points; take 2 to a few dozen")
+        raise InputError(
+            f"a neck of {neck} spacings does not fit a dumbbell of {n} points; take at least 2, and less than a lobe's "
+            "width"
+        )
     share, turn = sunflower(round(pi / (sqrt(3) / 2 * spacing**2)))
     uv = polar(np.sqrt(share), turn)
     in_lobe = np.hypot(np.abs(uv[:, 0]) - 0.6, uv[:, 1]) <= 0.4

@@ -117,6 +117,11 @@ def grade(shape: Shape, *, ratio: float = 10.0) -> Shape:
     Shape
         The same triangles and parameters; densest at the right.
 
+    Raises
+    ------
+    InputError
+        When the ratio is less than 1.
+
     Examples
     --------
     >>> from pointchart.shapes import disc
@@ -124,6 +129,8 @@ def grade(shape: Shape, *, ratio: float = 10.0) -> Shape:
     >>> bool(right.sum() > 600)
     True
     """
+    if not ratio >= 1:
+        raise InputError(f"a density ratio of {ratio} is out of range; take at least 1")
     # Lengths change by (1 + a) / (1 - a) and its inverse at the ends of the diameter.
     end = ratio**0.25
     a = (end - 1.0) / (end + 1.0)
@@ -164,9 +171,11 @@ def pierce(shape: Shape, *, n_gaps: int = 3, radius_in_spacings: float = 4.0, se
     rim = np.concatenate(shape.loops) if shape.loops else np.empty(0, np.int64)
     gone, middles = np.zeros(len(points), np.bool_), list[int]()
     for i in np.random.default_rng(seed).permutation(len(points)).tolist():
+        if len(middles) == n_gaps:
+            break
         apart = np.linalg.norm(points[[*rim.tolist(), *middles]] - points[i], axis=1)
         room = np.r_[np.full(len(rim), 2.0 * radius[i]), 2.0 * (radius[i] + radius[middles])]
-        if len(middles) < n_gaps and (apart > room).all():
+        if (apart > room).all():
             middles.append(i)
             gone |= np.linalg.norm(points - points[i], axis=1) < radius[i]
     kept = triangles[~gone[triangles].any(axis=1)]
