@@ -150,3 +150,19 @@ def test_noise_and_close_sheets_raise_the_number_of_disputed_links():
 def test_disputes_need_ordered_neighbours():
     with pytest.raises(InputError, match="only ordered neighbourhoods can agree on triangles; use Delaunay stars"):
         disputed_links(nearest(disc(40).points, 6))
+
+
+def test_links_that_are_given_besides_are_added_both_ways_and_trusted_least():
+    sheet = shapes.relief(300, seed=1)
+    star, far = delaunay_star(sheet.points, nearest(sheet.points, 20)), nearest(sheet.points, 8)
+    alone, joined = link_stars(star), link_stars(star, also=far)
+    trust = dict(zip(pairs_of(joined.neighborhoods), joined.trust.tolist(), strict=True))
+    before = dict(zip(pairs_of(alone.neighborhoods), alone.trust.tolist(), strict=True))
+    assert all(trust[link] == t for link, t in before.items())
+    added = set(pairs_of(far)) | {(j, i) for i, j in pairs_of(far)}
+    assert set(trust) == set(before) | added
+    assert {trust[link] for link in added - set(before)} == {LONE_TRUST}
+
+
+def pairs_of(neighborhoods):
+    return list(zip(neighborhoods.rows.tolist(), neighborhoods.indices.tolist(), strict=True))

@@ -33,7 +33,7 @@ class Links:
     trust: Floats
 
 
-def link_stars(star: Neighborhoods) -> Links:
+def link_stars(star: Neighborhoods, *, also: Neighborhoods | None = None) -> Links:
     """Join Delaunay stars to one symmetric graph, trusting links by the agreement of neighbouring stars.
 
     A link has full trust when it is an edge of a triangle that at least two of its corners' stars hold. The others,
@@ -43,6 +43,9 @@ def link_stars(star: Neighborhoods) -> Links:
     ----------
     star : Neighborhoods
         Ordered.
+    also : Neighborhoods, optional
+        Further links, trusted as those on which no stars agree: other diagonals that the mesh may take, so that its
+        graph is nearly the same and one order of elimination serves both.
 
     Returns
     -------
@@ -59,6 +62,9 @@ def link_stars(star: Neighborhoods) -> Links:
     """
     trust = np.where(_agree(star), 1.0, LONE_TRUST)
     graph = sp.csr_array((trust, star.indices, star.indptr), shape=(star.n_points, star.n_points))
+    if also is not None:
+        lone = np.full(len(also.indices), LONE_TRUST)
+        graph = graph.maximum(sp.csr_array((lone, also.indices, also.indptr), shape=graph.shape))
     both = graph.maximum(graph.T.tocsr()).tocsr()
     neighborhoods = Neighborhoods(both.indptr.astype(np.int64), both.indices.astype(np.int64))
     return Links(neighborhoods, both.data)

@@ -272,7 +272,8 @@ def _mesh(
     circle = chord_length_on_circle(points, rim)
     if connect is None and weights is None:
         with clock("neighbours"):
-            links = link_stars(survey.vicinity.star)
+            as_read = nearest_star(points, survey.vicinity.around)
+            links = link_stars(survey.vicinity.star, also=as_read)
         return mesh_repeatedly(points, rim, circle, links, swap=swap, solver=solver, clock=clock)
     with clock("neighbours"):
         neighborhoods = (connect or _default_stars)(points * survey.cloud.scale)
