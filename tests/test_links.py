@@ -153,16 +153,11 @@ def test_disputes_need_ordered_neighbours():
 
 
 def test_links_that_are_given_besides_are_added_both_ways_and_trusted_least():
-    sheet = shapes.relief(300, seed=1)
-    star, far = delaunay_star(sheet.points, nearest(sheet.points, 20)), nearest(sheet.points, 8)
-    alone, joined = link_stars(star), link_stars(star, also=far)
-    trust = dict(zip(pairs_of(joined.neighborhoods), joined.trust.tolist(), strict=True))
-    before = dict(zip(pairs_of(alone.neighborhoods), alone.trust.tolist(), strict=True))
-    assert all(trust[link] == t for link, t in before.items())
-    added = set(pairs_of(far)) | {(j, i) for i, j in pairs_of(far)}
-    assert set(trust) == set(before) | added
-    assert {trust[link] for link in added - set(before)} == {LONE_TRUST}
-
-
-def pairs_of(neighborhoods):
-    return list(zip(neighborhoods.rows.tolist(), neighborhoods.indices.tolist(), strict=True))
+    points = relief(300, seed=1).points
+    star, others = delaunay_star(points, nearest(points, 20)), nearest(points, 8)
+    before, after = pairs_of(link_stars(star)), pairs_of(link_stars(star, also=others))
+    assert all(after[pair] == trust for pair, trust in before.items())
+    added = set(zip(others.rows.tolist(), others.indices.tolist(), strict=True))
+    added |= {(j, i) for i, j in added}
+    assert set(after) == set(before) | added
+    assert {after[pair] for pair in added - set(before)} == {LONE_TRUST}
