@@ -226,7 +226,10 @@ def test_the_hull_test_finds_convex_boundaries_and_misses_concave_bends():
 
 def test_the_hull_test_needs_stars():
     sheet = shapes.grid(5, 5)
-    with pytest.raises(InputError, match="the hull test needs ordered neighbourhoods; use Delaunay stars"):
+    with pytest.raises(
+        InputError,
+        match="the neighbourhoods are not ordered, so no star is known to be open; use Delaunay stars",
+    ):
         hull_test(nearest(sheet.points, 8))
 
 

@@ -173,7 +173,7 @@ def test_the_loops_that_did_not_do_are_counted_and_reported_as_they_were_refused
     failures = [SolveError("the surface is no disc at point {there}", there=7), SolveError("no solver")]
     tried = with_evidence(result, candidates=result.evidence.candidates * 3, failures=failures)
     (line,) = boundary_lines(tried, points, found=True)
-    assert line == "boundary of 28 points, found, the best of 3 loops after 2 trials"
+    assert line == "boundary of 28 points, found, loop 3 of 3 by its scores: no mesh stood with 2 before it"
     report = run_report(points, np.arange(len(points)), tried, StageClock(), {}, boundary_given=False)
     assert report["boundary"]["tried_before"] == ["the surface is no disc at point 7", "no solver"]
 

@@ -29,7 +29,7 @@ from .clock import StageClock
 from .components import largest_component
 from .errors import FormatError, InputError, PointchartError, SolveError
 from .gaps import bridge_gaps, leave_gaps_open, refuse_second_boundary
-from .io import Scan, read_loop, read_scan, write_loop, write_mesh, write_uv
+from .io import Scan, read_loop, read_scan, write_curves, write_loop, write_mesh, write_uv
 from .links import Links, distrust_far, link_stars, trusted
 from .mesh import one_rings
 from .neighbors import Neighborhoods, ball, nearest, spacing
@@ -123,6 +123,7 @@ __all__ = [
     "uniform_steps",
     "uv_of_points",
     "uv_on_mesh",
+    "write_curves",
     "write_loop",
     "write_mesh",
     "write_uv",

@@ -85,8 +85,8 @@ def check_loop(loop: ArrayLike, n_points: int) -> Loop:
     return array
 
 
-def check_place(place: ArrayLike) -> Floats:
-    """Return a place in space as (3,) float64, or say what is wrong with it.
+def check_place(place: ArrayLike, name: str = "place") -> Floats:
+    """Return a place or a direction in space as (3,) float64, or say what is wrong with it.
 
     Raises
     ------
@@ -95,7 +95,7 @@ def check_place(place: ArrayLike) -> Floats:
     """
     array = np.asarray(place, dtype=np.float64)
     if array.shape != (3,) or not np.isfinite(array).all():
-        raise InputError(f"the place has shape {array.shape}; three finite numbers x, y, z are needed")
+        raise InputError(f"the {name} is {array.tolist()}; three finite numbers x, y, z are needed")
     return array
 
 

@@ -37,7 +37,7 @@ class Certificate:
         Euler characteristic: points in use - edges + triangles; 1 for a disc, 1 less for every hole.
     boundary_loops : int
     boundary_as_given : bool or None
-        Whether the loop that was asked for is a boundary, None if none was.
+        Whether the loop that was asked for is one of the boundary loops, None if none was.
     coinciding_uv : int or None
         Points that share their parameters with others, None without uv.
     flat_or_folded_uv : int or None

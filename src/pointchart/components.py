@@ -15,7 +15,7 @@ APART = 10.0  # spacings
 
 
 def label_parts(points: Points, around: Neighborhoods, spacing: Floats) -> Indices:
-    """Label the parts that neighbourhoods join by no more than ten spacings at either end, the largest 0, (n,).
+    """Label the parts that links of up to ten spacings, of the denser end, join; the largest is 0, (n,).
 
     Examples
     --------
@@ -47,7 +47,7 @@ def check_one_piece(points: Points, around: Neighborhoods, spacing: Floats) -> N
         shown = " and ".join(str(size) for size in sizes[:4]) + (" ..." if len(sizes) > 4 else "")
         raise InputError(
             f"the points fall into {len(sizes)} separate parts, of {shown} points (some of them: {{seeds}}), but a "
-            "patch is in one piece; take the largest (mesh has --component largest), or the parts one by one",
+            "patch is in one piece; take the largest (--component largest of mesh and boundary), or them one by one",
             seeds=np.unique(labels, return_index=True)[1],
         )
 
@@ -63,6 +63,11 @@ def largest_component(points: ArrayLike) -> Indices:
     Returns
     -------
     (k,) int64 array, ascending.
+
+    Raises
+    ------
+    InputError
+        If the points are no surface; see `prepare`.
 
     Examples
     --------

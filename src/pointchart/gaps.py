@@ -12,13 +12,13 @@ from .typing import Floats, Indices, Loop, Points, Triangles
 
 SECOND_BOUNDARY = 0.25  # a gap with this share of the boundary's length may as well be the boundary
 SECOND_SPACINGS = 24.0  # but a shorter one is a gap of the sampling, however short the boundary is
-SURELY_SECOND = 0.45  # unless it has this share of the boundary's length, and
-LEAST_SPACINGS = 12.0  # this length
+SURELY_SECOND = 0.45  # unless it has this share of the boundary's length, and LEAST_SPACINGS
+LEAST_SPACINGS = 12.0  # under this, a bridge is a matter of sampling
 SURE = 0.75  # share of its length along boundary points that a loop needs to be a second boundary without a bridge
 TORN_SPACINGS = 24.0  # rim of a bridge on a clear surface without a gap, from which on the surface is no disc
-TORN_IN_ALL = 60.0  # rims of all such bridges together
+TORN_IN_ALL = 60.0  # rims together of all clear bridges from LEAST_SPACINGS on
 MESSY_SPACINGS = 60.0  # the same where stars dispute their links: close sheets are meshed wrongly there, on a disc too
-MESSY_SHARE = 0.4  # or with this share of the boundary's length
+MESSY_SHARE = 0.4  # or TORN_SPACINGS, with this share of the boundary's length
 CLEAR = 0.05  # disputed links a point up to which a surface is clear
 
 
@@ -53,8 +53,9 @@ class Rims:
     def second_boundary(self) -> tuple[Loop, float] | None:
         """The points and the length of the longest gap or loop that may as well be the boundary, None if there is none.
 
-        A gap may be if it is a quarter as long as the boundary and no matter of sampling, or half as long. A loop that
-        no long edges bridge may be if it is half as long: between close sheets, the mesh closes it by short ones.
+        A gap may be if it is a quarter as long as the boundary and 24 spacings long, or 0.45 of it and 12. A loop that
+        no long edges bridge may be if it is 0.45 of it, 24 spacings long, and three quarters of it score as boundary:
+        between close sheets, the mesh closes it by short edges.
         """
         whole, found = self.length, []
         for gap in self.gaps:
@@ -73,7 +74,7 @@ class Rims:
 
     @property
     def is_outgrown(self) -> bool:
-        """Whether a gap is longer than the boundary, which then is a false one, if another does better."""
+        """Whether the second boundary is longer than the boundary, which then is likely a false one."""
         return self.second_boundary is not None and self.second_boundary[1] > self.length
 
     def loop_round(self, gap: Bridge) -> Loop | None:
@@ -142,6 +143,7 @@ def check_torn(rims: Rims, bridges: Sequence[Bridge], disputed: Indices, *, is_g
     Raises
     ------
     SolveError
+        If a bridge that lies over no gap is too long, or all of them together.
     """
     length = rims.length
     doubtful = [bridge for bridge in bridges if not bridge.is_gap and bridge.rim_in_spacings >= LEAST_SPACINGS]
@@ -155,14 +157,14 @@ def check_torn(rims: Rims, bridges: Sequence[Bridge], disputed: Indices, *, is_g
         or (bridge.rim_in_spacings >= TORN_SPACINGS and bridge.rim_length >= MESSY_SHARE * length)
     ]
     least = SECOND_BOUNDARY * length if is_given else 0.0
+    remedy = "cut the scan there" if is_given else "cut the scan there, or give the boundary"
     for bridge in torn:
         if bridge.rim_length >= least:
             raise SolveError(
                 f"the surface is no disc: {len(bridge.points)} points round point {{there}} at "
                 f"{place_of(rims.points, bridge.points[0])} are joined by edges of over four spacings, "
                 f"{bridge.rim_in_spacings:.0f} spacings round, although the scan has no gap there, as on a handle, "
-                "a twist, a part so long that its map collapses, or with a false boundary; cut the scan there, or give "
-                "the boundary",
+                f"a twist, a part so long that its map collapses, or with a false boundary; {remedy}",
                 there=bridge.points[0],
             )
 

@@ -233,31 +233,32 @@ def _first_that_stands(trials: list[Survey], rule: GapRule, mesh: Callable[[Surv
     """Mesh a scan with one loop after the other, until the mesh bridges nothing but gaps.
 
     A false loop has to be bridged over the true one, which shows as a bridge where there is no gap, or as a gap longer
-    than the loop. If none stands, the first failure tells why.
+    than the loop: such a loop is passed over where the rule refuses it, not where the user has gaps bridged or left
+    open. If none stands, the first failure tells why.
     """
     failures: list[PointchartError] = []
     for trial in trials:
         try:
             with points_called(trial.cloud.rows):
-                stand = _stand(trial, mesh(trial), failures)
+                stand = _stand(trial, mesh(trial))
                 if stand.rims.is_outgrown:
                     rule(stand.rims)
         except PointchartError as failure:
             failures.append(failure)
         else:
             with points_called(trial.cloud.rows):
-                return replace(stand, opened=rule(stand.rims))
+                return replace(stand, opened=rule(stand.rims), failures=failures)
     raise failures[0]
 
 
-def _stand(survey: Survey, meshed: Meshed, failures: list[PointchartError]) -> _Stand:
+def _stand(survey: Survey, meshed: Meshed) -> _Stand:
     """Check that a mesh bridges nothing but gaps of the scan."""
     points, spacing = survey.points, survey.cloud.scale * survey.vicinity.spacing
     bridges = find_bridges(points, meshed.swapped.triangles, spacing, lambda: survey.scores.is_boundary)
     gaps = [bridge for bridge in bridges if bridge.is_gap]
     rims = Rims(points, spacing, survey.loop, gaps, survey.candidates[1:])
     check_torn(rims, bridges, disputed_links(survey.vicinity.star), is_given=survey.found is None)
-    return _Stand(survey, meshed, bridges, rims, [], failures)
+    return _Stand(survey, meshed, bridges, rims, [], [])
 
 
 def _mesh(

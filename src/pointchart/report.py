@@ -56,10 +56,9 @@ def certificate_lines(proof: Certificate) -> list[str]:
 def boundary_lines(result: Reconstruction, points: Points, *, found: bool) -> list[str]:
     """Say what the boundary is and what was bridged, one thing a line; `points` are those of the vertices."""
     lines = [f"boundary of {len(result.loop)} points, {'found' if found else 'as given'}"]
-    if result.evidence.failures:
-        lines[0] += (
-            f", the best of {len(result.evidence.candidates)} loops after {len(result.evidence.failures)} trials"
-        )
+    failed, n = len(result.evidence.failures), len(result.evidence.candidates)
+    if failed:
+        lines[0] += f", loop {failed + 1} of {n} by its scores: no mesh stood with {failed} before it"
     gaps = [bridge for bridge in result.evidence.bridges if bridge.is_gap]
     doubts = [bridge for bridge in result.evidence.bridges if not bridge.is_gap]
     holes = result.certificate.holes

@@ -2,7 +2,6 @@
 
 from dataclasses import dataclass, replace
 
-import numpy as np
 from numpy.typing import ArrayLike
 
 from ._check import check_loop, check_place, check_points
@@ -61,7 +60,7 @@ class Survey:
 
     @property
     def candidates(self) -> list[Candidate]:
-        """The loops that the boundary was chosen from, the best first; none if it was given."""
+        """The loops that the boundary was chosen from: itself, then the others, the best first; none for a given one."""
         return self.found.candidates if self.found else []
 
     @property
@@ -125,15 +124,10 @@ def survey_scan(
             if given is None:
                 found = find_boundary(cloud.points, vicinity=vicinity)
                 if place is not None:
-                    found = found.beginning_with(nearest_to(found, scan[cloud.rows], place))
+                    found = found.beginning_with(found.nearest_to(scan[cloud.rows], place))
                 rim = found.loop
             else:
                 found, rim = None, check_loop(cloud.places[given], len(cloud.points))
                 check_order(cloud.points, rim)
                 rim = anticlockwise(cloud.points, rim)
     return Survey(scan, cloud, vicinity, rim, found)
-
-
-def nearest_to(found: FoundBoundary, points: Points, place: Points) -> int:
-    """Return which candidate passes nearest to a place."""
-    return int(np.argmin([np.linalg.norm(points[c.loop] - place, axis=1).min() for c in found.candidates]))

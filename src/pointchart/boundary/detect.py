@@ -74,6 +74,11 @@ def boundary_scores(
     -------
     BoundaryScores
 
+    Raises
+    ------
+    InputError
+        If the stars are not ordered, or have no positions in their planes.
+
     References
     ----------
     Bendels, Schnabel and Klein 2006, Detecting holes in point set surfaces, sections 4.1 and 4.2.
@@ -149,6 +154,11 @@ def hull_test(star: Neighborhoods) -> Mask:
     -------
     (n,) bool array.
 
+    Raises
+    ------
+    InputError
+        If the stars are not ordered.
+
     References
     ----------
     Floater and Reimers 2001, section 5.
@@ -197,7 +207,7 @@ def _sides(cloud: Points, around: Neighborhoods) -> tuple[Floats, Floats]:
 
 def _is_open(star: Neighborhoods) -> Mask:
     if star.is_open is None:
-        raise InputError("the hull test needs ordered neighbourhoods; use Delaunay stars")
+        raise InputError("the neighbourhoods are not ordered, so no star is known to be open; use Delaunay stars")
     return star.is_open
 
 

@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike
 from .._check import check_points
 from ..components import check_one_piece
 from ..errors import InputError
-from ..typing import Loop, Mask, Points
+from ..typing import Floats, Loop, Mask, Points
 from ..vicinity import Vicinity, explore
 from .detect import BoundaryScores, boundary_scores
 from .orient import anticlockwise
@@ -45,13 +45,17 @@ class FoundBoundary:
     loop : (b,) int64
         Boundary points in order, anticlockwise.
     candidates : list of Candidate
-        All loops that the scores support, the best first: ``candidates[0].loop`` is `loop`.
+        All loops that the scores support: that of the boundary first, then the others, the best first.
     scores : BoundaryScores
     """
 
     loop: Loop
     candidates: list[Candidate]
     scores: BoundaryScores
+
+    def nearest_to(self, points: Points, place: Floats) -> int:
+        """Return which candidate passes nearest to a place, (3,)."""
+        return int(np.argmin([np.linalg.norm(points[c.loop] - place, axis=1).min() for c in self.candidates]))
 
     def beginning_with(self, k: int) -> "FoundBoundary":
         """Return the same, with candidate k for the boundary."""

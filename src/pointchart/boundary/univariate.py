@@ -55,9 +55,11 @@ def order_by_halves(points: ArrayLike, members: ArrayLike, *, normal: ArrayLike 
     """
     cloud = check_points(points)
     chosen = np.asarray(members, dtype=np.int64)
+    if len(chosen) < 6:
+        raise InputError(f"{len(chosen)} boundary points cannot be put in order by halves; each half needs at least 3")
     centred = cloud[chosen] - cloud[chosen].mean(axis=0)
     if normal is not None:
-        return _order_by_plane(cloud, chosen, centred @ check_place(normal), k)
+        return _order_by_plane(cloud, chosen, centred @ check_place(normal, "normal of the plane"), k)
     first, second = np.linalg.svd(centred, full_matrices=False)[2][:2]
     loops, failures = list[Loop](), list[InputError]()
     for angle in np.arange(PLANES) * np.pi / PLANES:

@@ -9,6 +9,7 @@ import typer
 
 from ..boundary import BoundaryScores, Candidate
 from ..errors import points_called
+from ..gaps import place_of
 from ..io import check_output, write_curves, write_loop
 from ..picture import draw_boundary
 from ..survey import Survey, survey_scan
@@ -47,13 +48,13 @@ def boundary(
         survey = survey_scan(inputs.points, outer=place, clock=clock)
     rows, scores = inputs.rows[survey.cloud.rows], survey.scores
     loops = [rows[candidate.loop] for candidate in survey.candidates]
-    write_loop(out, loops[0])
     notes = []
     if ply is not None:
         attributes = _columns(loops, scores, inputs.rows, survey.cloud.places, len(inputs.scan.points))
         notes = write_curves(ply, inputs.scan.points, loops, attributes=inputs.scan.attributes | attributes)
     if picture is not None:
         draw_boundary(picture, survey.points, scores.total, [candidate.loop for candidate in survey.candidates])
+    write_loop(out, loops[0])
     if not quiet:
         print("\n".join([*_lines(out, survey, loops), *notes]), file=sys.stderr)
 
@@ -76,8 +77,8 @@ def _lines(out: Path, survey: Survey, loops: list[Loop]) -> list[str]:
         f"{out}: a loop of {_size(chosen, survey)}, {chosen.share:.0%} of it where the scores speak for a boundary"
     ]
     for other, loop in zip(others, loops[1:], strict=True):
-        place = ", ".join(f"{x:.6g}" for x in survey.points[other.loop[0]])
-        lines.append(f"another loop of {_size(other, survey)}, {other.share:.0%}, through point {loop[0]} at ({place})")
+        place = place_of(survey.points, other.loop[0])
+        lines.append(f"another loop of {_size(other, survey)}, {other.share:.0%}, through point {loop[0]} at {place}")
     return lines
 
 

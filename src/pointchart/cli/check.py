@@ -75,4 +75,4 @@ def _compare(read: Scan, scan: Scan, mesh: Path, path: Path) -> int:
             "another scan, or in a format that keeps no order or too few digits, such as STL",
             moved=moved,
         )
-    return n_distinct - len(read.points)
+    return n_distinct - len(np.unique(scan.points[rows], axis=0))

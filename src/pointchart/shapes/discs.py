@@ -184,7 +184,7 @@ def dumbbell(n: int, *, neck: float = 8.0) -> Shape:
     Raises
     ------
     InputError
-        With fewer points, or a neck narrower than 2 spacings or as wide as the lobes.
+        With fewer points, or a neck narrower than 2 spacings or wider than 0.6.
 
     Examples
     --------
@@ -192,12 +192,14 @@ def dumbbell(n: int, *, neck: float = 8.0) -> Shape:
     >>> bool(abs(flat.points[:, 0]).max() > 0.95), bool(abs(flat.points[abs(flat.points[:, 0]) < 0.1, 1]).max() < 0.2)
     (True, True)
     """
-    # The lobes have radius 0.4 and 87% of the points in the hexagonal packing of the plane.
+    # Each point of the hexagonal packing takes sqrt(3) / 2 squared spacings.
     spacing = sqrt(2 * pi * 0.4**2 / (n * sqrt(3) / 2))
-    if n < 100 or not neck >= 2.0 or neck * spacing > 0.6:
+    if n < 100:
+        raise InputError(f"a dumbbell of {n} points is too coarse; take at least 100")
+    if not neck >= 2.0 or neck * spacing > 0.6:
         raise InputError(
-            f"a neck of {neck} spacings does not fit a dumbbell of {n} points; take at least 2, and less than a lobe's "
-            "width"
+            f"a neck of {neck} spacings is {neck * spacing:.2f} wide; take at least 2 spacings, and at most 0.6, three "
+            "quarters of a lobe"
         )
     share, turn = sunflower(round(pi / (sqrt(3) / 2 * spacing**2)))
     uv = polar(np.sqrt(share), turn)
