@@ -4,8 +4,9 @@
 
 Ten surfaces (reliefs, rolled sheets, caps beyond the half sphere, tubes, necks, scan lines, close sheets) with noise of
 0 to half a spacing in each coordinate, densities of 1:1 to 1:10 (graded smoothly, to 1:40) and gaps, and closed
-surfaces, rings, handles and one-sided strips, which have to be refused. A surface is wrong if more than 0.2% of its edges join points that lie more
-than six mean edges apart on the true surface, or if its boundary is near the true one for less than 80% of its length.
+surfaces, rings, handles and one-sided strips, which have to be refused. A surface is wrong if more than 0.2% of its
+edges join points that lie more than six mean edges apart on the true surface, or if its boundary is near the true one
+for less than 80% of its length.
 """
 
 import argparse

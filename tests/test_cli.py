@@ -332,7 +332,7 @@ def test_the_largest_part_is_meshed_as_if_it_were_alone(run, parts, tmp_path):
     assert run("mesh", "alone.npy", "-o", "alone.ply")[0] == 0
     code, _, err = run("mesh", "parts.ply", "-o", "m.ply", "--component", "largest")
     assert code == 0
-    assert "30 points in smaller parts left out; point_index gives each vertex's row" in err
+    assert "30 points in other parts left out; point_index gives each vertex's row" in err
     mesh, alone = read_scan(tmp_path / "m.ply"), read_scan(tmp_path / "alone.ply")
     assert np.array_equal(mesh.triangles, alone.triangles)
     assert np.array_equal(uv_of(mesh), uv_of(alone))
@@ -359,7 +359,7 @@ def test_the_largest_part_of_a_scan_with_repeated_points_has_each_once(run, part
     np.save(tmp_path / "scan.npy", np.r_[points, points[rows[[7, 9]]], points[rest[[1]]]])
     code, _, err = run("mesh", "scan.npy", "-o", "m.ply", "--component", "largest")
     assert code == 0
-    left_out, merged = "31 points in smaller parts left out", "2 repeated points merged to the first"
+    left_out, merged = "31 points in other parts left out", "2 repeated points merged to the first"
     assert f"{left_out}, {merged}; point_index gives each vertex's row" in err
     assert np.array_equal(read_scan(tmp_path / "m.ply").attributes["point_index"], rows)
     code, _, err = run("check", "m.ply", "--points", "scan.npy")

@@ -3,7 +3,6 @@ import pytest
 from scipy.spatial import cKDTree
 
 from pointchart import InputError, StageClock, shapes, survey_scan
-from pointchart.survey import nearest_to
 
 PIERCED = shapes.pierce(shapes.disc(1500, seed=1), n_gaps=3, seed=1)
 PARTS = ("gap", "half_disc", "width", "uncovered")
@@ -83,7 +82,7 @@ def test_the_nearest_candidate_is_the_one_with_the_nearest_point():
     survey = survey_scan(PIERCED.points)
     for place in np.random.default_rng(4).uniform(-1, 1, (20, 3)):
         distance = [np.linalg.norm(survey.points[c.loop] - place, axis=1).min() for c in survey.candidates]
-        assert distance[nearest_to(survey.found, survey.points, place)] == min(distance)
+        assert distance[survey.found.nearest_to(survey.points, place)] == min(distance)
 
 
 def test_a_boundary_and_a_place_of_it_together_are_refused():

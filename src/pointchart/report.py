@@ -47,8 +47,8 @@ def certificate_lines(proof: Certificate) -> list[str]:
                 proof.flat_or_folded_uv,
             )
         )
-        simple = proof.simple_uv_boundary is True
-        lines.append(_line(simple, "boundary simple in the plane", "it crosses itself", None))
+    if proof.simple_uv_boundary is not None:
+        lines.append(_line(proof.simple_uv_boundary, "boundary simple in the plane", "it crosses itself", None))
     lines.append(f"[--] longest edge {proof.longest_edge_over_spacing:.1f} local spacings, {proof.folds} folds")
     return lines
 
@@ -64,6 +64,8 @@ def boundary_lines(result: Reconstruction, points: Points, *, found: bool) -> li
     holes = result.certificate.holes
     if gaps:
         done = f"{holes} left open" if holes else "bridged"
+        if 0 < holes < len(gaps):
+            done += " and the others, which touch the boundary or another gap, bridged"
         lines.append(f"{len(gaps)} gaps of the scan, {done}, the largest {gaps[0].rim_in_spacings:.0f} spacings round")
     if doubts:
         lines.append(

@@ -74,8 +74,8 @@ def normals(points: ArrayLike, around: Neighborhoods, *, fading: float = 0.0) ->
 def smooth(points: ArrayLike, around: Neighborhoods) -> Points:
     """Move each point onto the least-squares plane of its neighbours, near ones counting more: less noise.
 
-    Noise across the surface falls by half and more; no point moves along it. What
-    has to know the surface through noise, its stars and its boundary, looks at these points; nothing else does.
+    Noise across the surface falls by half and more; no point moves along it. Stars and scores, which have to see the
+    surface through the noise, look at these points; nothing else does.
 
     Parameters
     ----------

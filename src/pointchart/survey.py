@@ -16,6 +16,7 @@ from .boundary import (
     find_boundary,
 )
 from .clock import StageClock
+from .components import check_one_piece
 from .errors import InputError, points_called
 from .prepare import Cloud, prepare
 from .typing import Loop, Points
@@ -60,7 +61,7 @@ class Survey:
 
     @property
     def candidates(self) -> list[Candidate]:
-        """The loops that the boundary was chosen from: itself, then the others, the best first; none for a given one."""
+        """The boundary and the other loops that were found, the best first; none if the boundary was given."""
         return self.found.candidates if self.found else []
 
     @property
@@ -127,6 +128,7 @@ def survey_scan(
                     found = found.beginning_with(found.nearest_to(scan[cloud.rows], place))
                 rim = found.loop
             else:
+                check_one_piece(cloud.points, vicinity.around, vicinity.spacing)
                 found, rim = None, check_loop(cloud.places[given], len(cloud.points))
                 check_order(cloud.points, rim)
                 rim = anticlockwise(cloud.points, rim)

@@ -45,7 +45,10 @@ def check(
     if not quiet:
         print("\n".join(certificate_lines(proof)), file=sys.stderr)
     if not proof.is_as_asked or (uv is not None and not proof.is_one_to_one):
-        raise InputError(f"{mesh} is {summary(proof)}; mesh the scan again, or repair it")
+        remedy = "mesh the scan again, or repair it"
+        if proof.euler == 2 - proof.boundary_loops != 1 - holes:
+            remedy = f"for a mesh whose gaps were left open, say --holes {1 - proof.euler}"
+        raise InputError(f"{mesh} is {summary(proof)}; {remedy}")
     if not quiet:
         left = f"; {n_left} points of {points} are not in it" if n_left else ""
         print(f"{mesh}: {summary(proof)}{left}", file=sys.stderr)

@@ -89,6 +89,6 @@ def mesh(
 
 def _rows_left(inputs: Inputs, rows: Indices) -> list[str]:
     repeated, outside = len(inputs.rows) - len(rows), len(inputs.scan.points) - len(inputs.rows)
-    lines = [f"{outside} points in smaller parts left out"] if outside else []
+    lines = [f"{outside} points in other parts left out"] if outside else []
     lines += [f"{repeated} repeated points merged to the first"] if repeated else []
     return [f"{', '.join(lines)}; point_index gives each vertex's row"] if lines else []
