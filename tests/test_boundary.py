@@ -639,8 +639,10 @@ def test_ordering_by_halves_returns_its_members_once():
 
 
 def test_a_half_without_points_is_refused():
-    points = np.array([[0.0, 0, 0], [0.1, 1, 0], [0.2, 2, 0], [0.1, 3, 0], [-9.0, 1.5, 0]])
+    points = np.array([[0.0, 0, 0], [0.1, 1, 0], [0.2, 2, 0], [0.1, 3, 0], [-9.0, 1.5, 0], [0.0, 4, 0]])
     with pytest.raises(InputError, match="the plane leaves 1 boundary points on one side; each half needs at least 3"):
+        order_by_halves(points, np.arange(6), normal=[1, 0, 0])
+    with pytest.raises(InputError, match="5 boundary points cannot be put in order by halves"):
         order_by_halves(points, np.arange(5), normal=[1, 0, 0])
 
 

@@ -396,7 +396,7 @@ def test_a_loop_that_did_not_do_is_reported_by_the_rows_of_the_file(run, tmp_pat
     assert code == 0
     boundary = json.loads(Path("run.json").read_text())["boundary"]
     assert boundary["length"] == pytest.approx(2 * np.pi * 0.15, rel=0.01)
-    assert f"the best of {len(boundary['loops'])} loops after 1 trials" in err
+    assert f"loop 2 of {len(boundary['loops'])} by its scores: no mesh stood with 1 before it" in err
     (failure,) = boundary["tried_before"]
     row, place = re.search(r"^the surface is no disc: .* round point (\d+) at \((.*?)\)", failure).groups()
     at = np.load(tmp_path / "scan.npy")[int(row)]

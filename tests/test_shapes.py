@@ -520,7 +520,7 @@ def test_peeling_leaves_a_disc_with_every_point(seed, limit):
         (lambda: shapes.roll(shapes.disc(50), 360), "roll of 360 degrees"),
         (lambda: shapes.fold(40), "gap of 40 spacings"),
         (lambda: shapes.dumbbell(99), "dumbbell of 99 points"),
-        (lambda: shapes.dumbbell(500, neck=1.9), "neck of 1.9 spacings does not fit a dumbbell of 500 points"),
+        (lambda: shapes.dumbbell(500, neck=1.9), "a neck of 1.9 spacings is 0.09 wide"),
         (lambda: shapes.dumbbell(500, neck=30), "neck of 30 spacings"),
         (lambda: shapes.annulus(2, 5), "2 by 5 points, around and across, are too few for an annulus"),
         (lambda: shapes.annulus(inner_radius=1), "inner radius of 1"),

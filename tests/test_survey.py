@@ -91,10 +91,16 @@ def test_a_boundary_and_a_place_of_it_together_are_refused():
 
 
 @pytest.mark.parametrize(
-    ("place", "shape"), [([1, 0], r"\(2,\)"), ([[1, 0, 0]], r"\(1, 3\)"), (1.0, r"\(\)"), ([0, np.nan, 0], r"\(3,\)")]
+    ("place", "told"),
+    [
+        ([1, 0], r"\[1.0, 0.0\]"),
+        ([[1, 0, 0]], r"\[\[1.0, 0.0, 0.0\]\]"),
+        (1.0, "1.0"),
+        ([0, np.nan, 0], r"\[0.0, nan, 0.0\]"),
+    ],
 )
-def test_a_place_that_is_none_is_refused(place, shape):
-    with pytest.raises(InputError, match=f"the place has shape {shape}; three finite numbers x, y, z are needed"):
+def test_a_place_that_is_none_is_refused(place, told):
+    with pytest.raises(InputError, match=f"the place is {told}; three finite numbers x, y, z are needed"):
         survey_scan(PIERCED.points, outer=place)
 
 
