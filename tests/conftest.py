@@ -1,5 +1,6 @@
 """Shapes made once a run, and the real scans where they are at hand."""
 
+import os
 from functools import cache
 from pathlib import Path
 from typing import NamedTuple
@@ -32,6 +33,16 @@ class Scan(NamedTuple):
     points: np.ndarray
     triangles: np.ndarray
     loop: np.ndarray
+
+
+@pytest.fixture
+def full_disk(monkeypatch):
+    """Let every file that is put into its place fail as on a full disk."""
+
+    def fail(*names):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(os, "replace", fail)
 
 
 @pytest.fixture(scope="session")

@@ -157,14 +157,9 @@ def test_parameters_are_written_with_their_points(tmp_path, suffix):
 
 
 @pytest.mark.parametrize("suffix", MESH_SUFFIXES)
-def test_a_failed_write_leaves_the_old_file_and_nothing_else(tmp_path, suffix, monkeypatch):
+def test_a_failed_write_leaves_the_old_file_and_nothing_else(tmp_path, suffix, full_disk):
     path = tmp_path / f"mesh{suffix}"
     path.write_text("old")
-
-    def disk_full(*names):
-        raise OSError(28, "No space left on device")
-
-    monkeypatch.setattr(os, "replace", disk_full)
     with pytest.raises(FormatError, match=r"cannot be written \(No space left on device\); free the disk"):
         write_mesh(path, np.eye(4, 3), TRIANGLES)
     assert unchanged(tmp_path, path.name, "old")

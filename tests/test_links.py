@@ -47,12 +47,16 @@ def stars_triangles(star):
     return triangles
 
 
+def held_by_two(star):
+    triangles = stars_triangles(star)
+    return {t for t in triangles if triangles.count(t) > 1}
+
+
 @settings(max_examples=20)
 @given(clouds())
 def test_a_link_has_full_trust_exactly_on_triangles_that_two_stars_hold(points):
     star = delaunay_star(points, nearest(points, 15))
-    triangles = stars_triangles(star)
-    agreed = {t for t in triangles if triangles.count(t) > 1}
+    agreed = held_by_two(star)
     for (i, j), trust in pairs_of(link_stars(star)).items():
         assert (trust == 1.0) == any({i, j} <= t for t in agreed)
 
@@ -110,8 +114,7 @@ def test_far_links_lose_their_trust_and_the_others_keep_it():
 @given(clouds())
 def test_a_link_is_disputed_exactly_where_no_triangle_of_its_star_on_it_is_held_by_another(points):
     star = delaunay_star(points, nearest(points, 15))
-    triangles = stars_triangles(star)
-    held = {t for t in triangles if triangles.count(t) > 1}
+    held = held_by_two(star)
     expected = []
     for i in range(star.n_points):
         row = star.indices[star.indptr[i] : star.indptr[i + 1]].tolist()

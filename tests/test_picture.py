@@ -1,7 +1,5 @@
 """Pictures: what can be measured on their pixels."""
 
-import os
-
 import numpy as np
 import pytest
 from matplotlib import colors, image
@@ -100,14 +98,9 @@ def test_a_picture_into_a_missing_folder_is_one_sentence(tmp_path):
     plt.close("all")
 
 
-def test_a_failed_picture_leaves_the_old_file_and_nothing_else(tmp_path, monkeypatch):
+def test_a_failed_picture_leaves_the_old_file_and_nothing_else(tmp_path, full_disk):
     path = tmp_path / "loops.png"
     path.write_text("old")
-
-    def disk_full(*names):
-        raise OSError(28, "No space left on device")
-
-    monkeypatch.setattr(os, "replace", disk_full)
     with pytest.raises(FormatError, match=r"cannot be written \(No space left on device\); free the disk"):
         draw_boundary(path, SHEET.points, MARKED, [SHEET.boundary])
     plt.close("all")

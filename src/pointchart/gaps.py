@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .boundary import Candidate
+from .boundary import Candidate, perimeter
 from .bridges import Bridge
 from .errors import SolveError
 from .typing import Floats, Indices, Loop, Points, Triangles
@@ -167,17 +167,6 @@ def check_torn(rims: Rims, bridges: Sequence[Bridge], disputed: Indices, *, is_g
                 f"a twist, a part so long that its map collapses, or with a false boundary; {remedy}",
                 there=bridge.points[0],
             )
-
-
-def perimeter(points: Points, loop: Loop) -> float:
-    """Return the length of a closed loop, in the unit of the points.
-
-    Examples
-    --------
-    >>> perimeter(np.array([[0.0, 0, 0], [3, 0, 0], [3, 4, 0]]), np.array([0, 1, 2]))
-    12.0
-    """
-    return float(np.linalg.norm(points[np.roll(loop, -1)] - points[loop], axis=1).sum())
 
 
 def place_of(points: Points, index: int) -> str:

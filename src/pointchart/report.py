@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from .boundary import Candidate
+from .boundary import Candidate, perimeter
 from .bridges import Bridge
 from .certify import Certificate
 from .clock import StageClock
@@ -121,7 +121,6 @@ def run_report(
     solution = result.evidence.meshed.first_map.solution
     stretch = l2_stretch(points, result.triangles, result.uv)
     ratios = radius_ratios(points, result.triangles)
-    steps = np.linalg.norm(points[result.loop] - points[np.roll(result.loop, -1)], axis=1)
     return {
         "points": {
             "read": len(scan),
@@ -134,7 +133,7 @@ def run_report(
         "peak_memory_mb": peak_memory_mb(),
         "boundary": {
             "points": len(result.loop),
-            "length": float(steps.sum()),
+            "length": perimeter(points, result.loop),
             "origin": "given" if boundary_given else "found",
             "loops": [_loop(candidate) for candidate in result.evidence.candidates],
             "gaps": [_bridge(bridge) for bridge in result.evidence.bridges if bridge.is_gap],

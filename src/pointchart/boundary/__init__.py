@@ -18,6 +18,7 @@ from .layout import (
 from .order import check_order
 from .orient import anticlockwise
 from .rims import agreed_triangles, rims
+from .steps import perimeter, step_lengths
 from .univariate import order_by_halves
 
 __all__ = [
@@ -38,10 +39,12 @@ __all__ = [
     "on_polygon",
     "on_square",
     "order_by_halves",
+    "perimeter",
     "places_of",
     "quarter_places",
     "reversed_loop",
     "rims",
     "sharpest_places",
+    "step_lengths",
     "uniform_steps",
 ]

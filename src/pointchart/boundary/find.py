@@ -13,6 +13,7 @@ from ..vicinity import Vicinity, explore
 from .detect import BoundaryScores, boundary_scores
 from .orient import anticlockwise
 from .rims import agreed_triangles, rims, tightened
+from .steps import step_lengths
 
 LEAST_SHARE = 0.5
 SHORTEST = 12.0  # spacings: a shorter loop is a gap that a neighbourhood spans
@@ -115,7 +116,6 @@ def find_boundary(points: ArrayLike, *, vicinity: Vicinity | None = None) -> Fou
 
 def measure(points: Points, loop: Loop, is_boundary: Mask) -> Candidate:
     """Measure the length of a loop and the share of it that runs between boundary points."""
-    following = np.roll(loop, -1)
-    steps = np.linalg.norm(points[following] - points[loop], axis=1)
-    marked = is_boundary[loop] & is_boundary[following]
+    steps = step_lengths(points, loop)
+    marked = is_boundary[loop] & is_boundary[np.roll(loop, -1)]
     return Candidate(loop, float(steps.sum()), float(steps[marked].sum() / steps.sum()))

@@ -6,6 +6,7 @@ from numpy.typing import ArrayLike
 from .._check import check_convex, check_loop, check_points
 from ..errors import InputError
 from ..typing import UV, Floats, Indices, Loop, Points
+from .steps import step_lengths
 
 
 def uniform_steps(points: ArrayLike, loop: ArrayLike) -> Floats:
@@ -44,7 +45,7 @@ def centripetal_steps(points: ArrayLike, loop: ArrayLike) -> Floats:
 def _steps(points: ArrayLike, loop: ArrayLike, power: float) -> Floats:
     cloud = check_points(points)
     rim = check_loop(loop, len(cloud))
-    return np.asarray(np.linalg.norm(cloud[np.roll(rim, -1)] - cloud[rim], axis=1) ** power)
+    return np.asarray(step_lengths(cloud, rim) ** power)
 
 
 def on_circle(steps: Floats) -> UV:

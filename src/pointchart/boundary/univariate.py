@@ -9,6 +9,7 @@ from .._check import check_place, check_points
 from ..errors import InputError
 from ..solve import solve_fixed
 from ..typing import Floats, Indices, Loop, Points
+from .steps import perimeter
 
 PLANES = 12
 
@@ -69,7 +70,7 @@ def order_by_halves(points: ArrayLike, members: ArrayLike, *, normal: ArrayLike 
             failures.append(failure)
     if not loops:
         raise failures[0]
-    return min(loops, key=lambda loop: float(np.linalg.norm(cloud[loop] - cloud[np.roll(loop, -1)], axis=1).sum()))
+    return min(loops, key=lambda loop: perimeter(cloud, loop))
 
 
 def _order_by_plane(cloud: Points, chosen: Indices, height: Floats, k: int) -> Loop:

@@ -43,7 +43,7 @@ def boundary(
         if path is not None:
             check_output(path, suffixes=(suffix,), inputs=taken)
             taken.append(path)
-    inputs = read_inputs(scan, None, out=out, suffixes=(".txt",), component=component)
+    inputs = read_inputs(scan, None, None, out=out, suffixes=(".txt",), component=component)
     with staged(quiet) as clock, points_called(inputs.rows):
         survey = survey_scan(inputs.points, outer=place, clock=clock)
     rows, scores = inputs.rows[survey.cloud.rows], survey.scores

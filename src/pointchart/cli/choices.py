@@ -151,16 +151,12 @@ def layout_rule(domain: Domain, spacing: Spacing, corners: Indices | None) -> La
     return square
 
 
-def check_exclusive(loop: Path | None, outer: str | None) -> None:
-    """Check that the boundary is either given or said to pass a place."""
-    if loop is not None and outer is not None:
-        raise typer.BadParameter("--boundary and --outer exclude each other: either says which loop the boundary is")
-
-
-def outer_place(text: str | None) -> Floats | None:
-    """Return the place that the boundary passes nearest to."""
+def outer_place(text: str | None, boundary: Path | None = None) -> Floats | None:
+    """Return the place that the boundary passes nearest to, unless it is given."""
     if text is None:
         return None
+    if boundary is not None:
+        raise typer.BadParameter("--boundary and --outer exclude each other: either says which loop the boundary is")
     try:
         place = np.array([float(word) for word in text.split(",")]).reshape(3)
     except ValueError:

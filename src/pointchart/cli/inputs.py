@@ -26,11 +26,14 @@ class Inputs:
         The rows of the scan that are worked on.
     loop : (b,) int64 or None
         The boundary given, in places of `rows`.
+    corners : (4,) int64 or None
+        The corners named, in places of `rows`.
     """
 
     scan: Scan
     rows: Indices
-    loop: Loop | None
+    loop: Loop | None = None
+    corners: Indices | None = None
 
     @property
     def points(self) -> Points:
@@ -65,6 +68,7 @@ class Inputs:
 def read_inputs(
     scan: Path,
     boundary: Path | None,
+    corners: Sequence[int] | None,
     *,
     out: Path,
     suffixes: Sequence[str],
@@ -78,7 +82,8 @@ def read_inputs(
         check_output(report, suffixes=(".json",), inputs=[*inputs, out])
     read = read_scan(scan)
     loop = None if boundary is None else read_loop(boundary)
-    if component is None:
-        return Inputs(read, np.arange(len(read.points)), loop)
-    part = Inputs(read, largest_component(read.points), None)
-    return part if loop is None else replace(part, loop=part.places_of(loop, "boundary points"))
+    whole = Inputs(read, np.arange(len(read.points)), loop)
+    part = whole if component is None else Inputs(read, largest_component(read.points))
+    if component is not None and loop is not None:
+        part = replace(part, loop=part.places_of(loop, "boundary points"))
+    return part if corners is None else replace(part, corners=part.places_of(corners, "corners"))

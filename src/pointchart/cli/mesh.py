@@ -20,7 +20,6 @@ from .choices import (
     Domain,
     Spacing,
     Swap,
-    check_exclusive,
     connect_rule,
     corner_names,
     layout_rule,
@@ -57,11 +56,9 @@ def mesh(
     quiet: given.QuietOption = False,
 ) -> None:
     """Mesh a scan of one surface patch: a triangle mesh on exactly its points, certified to be a disc, with uv."""
-    connect, named = connect_rule(neighbors, k, radius), corner_names(domain, corners)
-    check_exclusive(boundary, outer)
-    place = outer_place(outer)
-    inputs = read_inputs(scan, boundary, out=out, suffixes=MESH_SUFFIXES, report=report, component=component)
-    places = None if named is None else inputs.places_of(named, "corners")
+    connect, place = connect_rule(neighbors, k, radius), outer_place(outer, boundary)
+    named = corner_names(domain, corners)
+    inputs = read_inputs(scan, boundary, named, out=out, suffixes=MESH_SUFFIXES, report=report, component=component)
     with staged(quiet) as clock, points_called(inputs.rows):
         result = reconstruct(
             inputs.points,
@@ -71,7 +68,7 @@ def mesh(
             connect=connect,
             weights=weights_rule(weights, neighbors),
             swap=SWAPS[swap],
-            layout=layout_rule(domain, spacing, places),
+            layout=layout_rule(domain, spacing, inputs.corners),
             chart=CHARTS[uv],
             clock=clock,
         )

@@ -14,7 +14,6 @@ from . import options as given
 from .choices import (
     Domain,
     Spacing,
-    check_exclusive,
     connect_rule,
     corner_names,
     layout_rule,
@@ -45,11 +44,9 @@ def param(
     quiet: given.QuietOption = False,
 ) -> None:
     """Give every point of a scan planar parameters by the paper's method, without a mesh; row i is point i."""
-    connect, named = connect_rule(neighbors, k, radius), corner_names(domain, corners)
-    check_exclusive(boundary, outer)
-    place = outer_place(outer)
-    inputs = read_inputs(scan, boundary, out=out, suffixes=UV_SUFFIXES, report=report)
-    places = None if named is None else inputs.places_of(named, "corners")
+    connect, place = connect_rule(neighbors, k, radius), outer_place(outer, boundary)
+    named = corner_names(domain, corners)
+    inputs = read_inputs(scan, boundary, named, out=out, suffixes=UV_SUFFIXES, report=report)
     with staged(quiet) as clock:
         survey, mapped = parameterize_scan(
             inputs.points,
@@ -57,7 +54,7 @@ def param(
             outer=place,
             connect=connect,
             weights=weights_rule(weights, neighbors),
-            layout=layout_rule(domain, spacing, places),
+            layout=layout_rule(domain, spacing, inputs.corners),
             clock=clock,
         )
     uv = mapped.uv[survey.cloud.places]

@@ -95,10 +95,8 @@ def bent_sheet(angle: float, *, nx: int = 41, ny: int = 31) -> Shape:
 
     Examples
     --------
-    >>> import numpy as np
-    >>> half = bent_sheet(180, nx=11, ny=5)
-    >>> bool(np.allclose(np.hypot(half.points[:, 0], half.points[:, 2]), 10 / np.pi))
-    True
+    >>> len(bent_sheet(180, nx=11, ny=5).points)
+    55
     """
     return roll(grid(nx, ny), angle)
 
