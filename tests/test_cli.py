@@ -343,7 +343,7 @@ def test_the_largest_part_names_its_rows_and_carries_what_the_scan_had(run, part
     _, rows = parts
     assert run("mesh", "parts.ply", "-o", "m.ply", "--component", "largest")[0] == 0
     mesh = read_scan(tmp_path / "m.ply")
-    assert sorted(mesh.attributes) == ["id", "point_index", "u", "v"]
+    assert sorted(mesh.attributes) == ["id", "point_index", "stretch", "u", "v"]
     assert mesh.attributes["point_index"].dtype == np.int32
     assert np.array_equal(mesh.attributes["point_index"], rows)
     assert mesh.attributes["id"].dtype == np.uint16
@@ -556,7 +556,7 @@ def test_curves_are_a_scan_that_is_meshed_with_its_scores(run, cap, tmp_path):
     assert run("boundary", "cap.ply", "-o", "loop.txt", "--ply", "loops.ply")[0] == 0
     assert run("mesh", "loops.ply", "-o", "m.ply", "--boundary", "loop.txt")[0] == 0
     mesh, curves = read_scan(tmp_path / "m.ply"), read_scan(tmp_path / "loops.ply")
-    assert set(mesh.attributes) == {"u", "v", "red", "intensity", "loop", *SCORES}
+    assert set(mesh.attributes) == {"u", "v", "stretch", "red", "intensity", "loop", *SCORES}
     assert np.array_equal(mesh.attributes["score_total"], curves.attributes["score_total"])
     assert run("check", "m.ply", "--points", "cap.ply", "--quiet")[0] == 0
 

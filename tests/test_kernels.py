@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 
 from pointchart import _kernels
+from pointchart._kernels import drafts, planes, recover, relocate, rims, sides
 from pointchart._kernels import half_edges as half_edge_kernels
-from pointchart._kernels import planes, rims, sides
-from pointchart.mesh import half_edges, one_rings
+from pointchart.intersections import box_tree
+from pointchart.mesh import half_edges, one_rings, start_draft
 from pointchart.neighbors import nearest
 from pointchart.shapes import disc, relief
 from pointchart.stars import delaunay_star, normals
@@ -51,11 +52,92 @@ rims.keep_manifold(np.arange(7, M), EDGE_OF, RAGGED)
 
 PENTAGRAM = np.array([[np.cos(t), np.sin(t)] for t in np.arange(5) * 0.8 * np.pi])
 X_ENDS = np.column_stack([PENTAGRAM[:, 0], np.roll(PENTAGRAM[:, 0], -1)])
+SPANS = np.array([[0.0, 0, 0], [4, 0, 0], [0, 4, 0], [1, 1, -1], [1, 1, 1], [9, 9, 0], [5, 5, 0], [6, 5, 0], [5, 6, 0]])
+SPAN_BOXES = box_tree(SPANS[::3], SPANS[1::3], SPANS[2::3])
 SWEEP = (np.argsort(X_ENDS.min(axis=1)), X_ENDS.min(axis=1), X_ENDS.max(axis=1))
+
+ASTRAY = int(np.setdiff1d(np.arange(N), SHAPE.boundary)[7])
+
+
+def draft():
+    return start_draft(SHAPE.points, SHAPE.triangles, journal=relocate.JOURNAL)
+
+
+def mixed_draft():
+    return start_draft(SHAPE.points, disc(60, seed=1).triangles, journal=relocate.JOURNAL)
+
+
+def changed_draft():
+    changed = draft()
+    drafts.swap_noted.py_func(changed, 0, INNER)
+    return changed
+
+
+def thinned_out():
+    thin = draft()
+    n, _ = relocate.thin_out.py_func(thin, ASTRAY, drafts.inner_degree.py_func(thin, ASTRAY))
+    h = int(thin.leaving[ASTRAY])
+    one = drafts.next_around.py_func(thin, h)
+    return thin, n, ASTRAY, h, one, drafts.next_around.py_func(thin, one)
+
 
 CASES = {
     "crossings.find_crossing": lambda: (PENTAGRAM, *SWEEP, ints((320, 2))),
     "crossings.turn": lambda: (0.0, 0.0, 1.0, 0.0, 0.5, 1e-300),
+    "curvature_swaps.area_vector": lambda: (SHAPE.points, 7, 3, 5),
+    "curvature_swaps.cotangents": lambda: (SHAPE.points, 0, 1, 2),
+    "curvature_swaps.distance": lambda: (SHAPE.points, 0, 1),
+    "curvature_swaps.turn_at_edge": lambda: (SHAPE.points, 0, 1, 2, 3),
+    "curvature_swaps.add_bend": lambda: (SHAPE.points, 1, 0, 1, 2, 3, 0, 1, -1.0, np.zeros((2, 3))),
+    "curvature_swaps.add_triangle": lambda: (SHAPE.points, 0, 1, 2, 0, 1, 2, 1.0, np.zeros((3, 3))),
+    "curvature_swaps.add_pair": lambda: (
+        SHAPE.points,
+        3,
+        (0, 1, 2, 3),
+        (4, 5, -1, 6),
+        (0, 1, 2, 3),
+        1.0,
+        np.zeros((4, 3)),
+    ),
+    "curvature_swaps.sum_curvature": lambda: (SHAPE.points, EDGES.origins, EDGES.twins, 1, np.zeros((N, 3))),
+    "curvature_swaps.cost_at_point": lambda: (3, False, -0.2, 0.3, 1.5),
+    "curvature_swaps.apex_beyond": lambda: (EDGES.origins, EDGES.twins, INNER),
+    "curvature_swaps.gain_of_swap": lambda: (
+        SHAPE.points,
+        EDGES.origins,
+        EDGES.twins,
+        3,
+        0.2,
+        bools(N),
+        INNER,
+        np.ones((N, 3)),
+        np.zeros((4, 3)),
+    ),
+    "curvature_swaps.curvature_swaps": lambda: (
+        SHAPE.points,
+        EDGES.origins,
+        EDGES.twins,
+        0,
+        1.0,
+        bools(N),
+        np.ones((N, 3)),
+        ints(N),
+    ),
+    "drafts.anchor": lambda: (draft(), 5),
+    "drafts.first_around": lambda: (draft(), int(SHAPE.boundary[0])),
+    "drafts.inner_degree": lambda: (draft(), ASTRAY),
+    "drafts.next_around": lambda: (draft(), INNER),
+    "drafts.record": lambda: (draft(), 2, 5),
+    "drafts.swap_noted": lambda: (draft(), 0, INNER),
+    "drafts.undo": lambda: (changed_draft(), 2),
+    "energy.alone_energy": lambda: (draft(), *EDGES.origins[6:9].tolist(), 6, 7, 8),
+    "energy.bend_across": lambda: (draft(), INNER, (0.3, 0.2, 0.6, 0.7)),
+    "energy.bend_energy": lambda: (SHAPE.points, 0, 1, (0.3, 0.2, 0.6, 0.7), (0.6, 0.2, 0.3, 0.7)),
+    "energy.pair_energy": lambda: (draft(), 0, 1, 2, 3, 6, 7, 8, 9),
+    "energy.swap_gain": lambda: (draft(), INNER),
+    "energy.tent_energy": lambda: (draft(), 20, *EDGES.origins[6:9].tolist(), 6, 7, 8),
+    "energy.total_energy": lambda: (draft(),),
+    "energy.triangle_energy": lambda: (SHAPE.points, 0, 1, 2),
     "graphs.dominators": lambda: (TREE[0], *GRAPH, 0, np.arange(5), np.array([0, -1, -1, -1, -1])),
     "graphs.symmetrizer": lambda: (
         *TREE,
@@ -80,6 +162,13 @@ CASES = {
         ints(RINGS.indptr[-1]),
         bools(N),
     ),
+    "intersections.side": lambda: (SHAPE.points, 0, 1, 2, 3),
+    "intersections.sides_of": lambda: (SPANS, (0, 1, 2), (3, 4, 5)),
+    "intersections.pierces": lambda: (SPANS, (3, 4, 5), (-1, 1, 0), (0, 1, 2)),
+    "intersections.is_apart_in_plane": lambda: (SPANS, (0, 1, 2), (6, 7, 8), 0, 1),
+    "intersections.meet": lambda: (SPANS, (0, 1, 2), (3, 4, 5)),
+    "intersections.overlap": lambda: (SPAN_BOXES, 3, (0.5, 0.5, -0.5, 2.0, 2.0, 0.5)),
+    "intersections.find_meetings": lambda: (SPANS, np.arange(9).reshape(3, 3), SPAN_BOXES, ints((2, 3))),
     "links.are_adjacent": lambda: (
         STAR.indptr,
         STAR.indices,
@@ -111,6 +200,33 @@ CASES = {
         np.zeros((N, 3)),
         np.zeros(N),
     ),
+    "recover.edge_towards": lambda: (draft(), SHAPE.uv, 0, 40),
+    "recover.recover": lambda: (mixed_draft(), SHAPE.uv, RINGS.rows, RINGS.indices),
+    "recover.recover_one": lambda: (draft(), SHAPE.uv, 0, 40),
+    "recover.side": lambda: (SHAPE.uv, 0, 1, 2),
+    "recover.swappable": lambda: (draft(), SHAPE.uv, 0, 40, recover.edge_towards.py_func(draft(), SHAPE.uv, 0, 40)),
+    "relocate.cheapest_place": lambda: (draft(), 3, np.array([20, 21, 22])),
+    "relocate.descend": lambda: (mixed_draft(), 0, np.resize(np.arange(3 * M), relocate.STACK), 3 * M, 1e-9),
+    "relocate.put_in": lambda: (draft(), 0, ASTRAY, 0, 1, 2),
+    "relocate.relocate": lambda: (
+        mixed_draft(),
+        np.arange(N),
+        ~bools(N),
+        N,
+        AROUND.indptr,
+        AROUND.indices,
+        1e-9,
+        3 * N,
+    ),
+    "relocate.relocate_one": lambda: (
+        mixed_draft(),
+        ASTRAY,
+        AROUND.indices[9 * ASTRAY :][:9],
+        ints(relocate.STACK),
+        1e-9,
+    ),
+    "relocate.take_out": lambda: thinned_out(),
+    "relocate.thin_out": lambda: (draft(), ASTRAY, drafts.inner_degree.py_func(draft(), ASTRAY)),
     "rims.count_votes": lambda: (STAR.indptr, STAR.indices, STAR.is_open, 0, N, ints(len(STAR.indices))),
     "rims.name_edges": lambda: (SHAPE.triangles, ints(N + 1), ints((3 * M, 2)), ints((M, 3))),
     "rims.keep_manifold": lambda: (np.arange(M)[::-1].copy(), EDGE_OF, ints((len(ENDS), 2)) - 1),
@@ -212,10 +328,25 @@ def test_a_compiled_kernel_equals_its_python_function(name):
     kernel, arguments = kernels()[name], CASES[name]()
     compiled, plain = copy.deepcopy(arguments), copy.deepcopy(arguments)
     answers = kernel(*compiled), kernel.py_func(*plain)
-    assert np.allclose(*[np.array(answer, dtype=float) for answer in answers], rtol=1e-12, atol=1e-14, equal_nan=True)
-    for one, other in zip(compiled, plain, strict=True):
-        if isinstance(one, np.ndarray):
-            assert np.allclose(one, other, rtol=1e-12, atol=1e-14)
+    assert np.allclose(*map(numbers, answers), rtol=1e-12, atol=1e-14, equal_nan=True)
+    for one, other in zip(arrays(compiled), arrays(plain), strict=True):
+        assert np.allclose(one, other, rtol=1e-12, atol=1e-14)
+
+
+def numbers(answer):
+    """All numbers of an answer, which may be a tuple of tuples."""
+    if isinstance(answer, tuple):
+        return np.concatenate([numbers(part) for part in answer])
+    return np.array(answer, dtype=float).ravel()
+
+
+def arrays(arguments):
+    """All arrays among arguments and in the drafts among them."""
+    for argument in arguments:
+        if isinstance(argument, np.ndarray):
+            yield argument
+        elif isinstance(argument, tuple):
+            yield from arrays(argument)
 
 
 @pytest.mark.parametrize("h", range(9))

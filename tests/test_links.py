@@ -4,7 +4,7 @@ from hypothesis import given, settings
 from strategies import clouds
 
 from pointchart.errors import InputError
-from pointchart.links import FAR_TRUST, LONE_TRUST, disputed_links, distrust_far, is_near, link_stars
+from pointchart.links import LONE_TRUST, disputed_links, is_near, link_stars
 from pointchart.mesh import one_rings
 from pointchart.neighbors import Neighborhoods, nearest
 from pointchart.shapes import add_noise, disc, fold, grid, relief
@@ -94,17 +94,6 @@ def test_near_links_are_those_within_two_edges_of_the_mesh():
     near = is_near(every_link, shape.triangles).reshape(n, n)
     expected = edge | ((edge.astype(int) @ edge) > 0)
     assert np.array_equal(near | np.eye(n, dtype=bool), expected | np.eye(n, dtype=bool))
-
-
-def test_far_links_lose_their_trust_and_the_others_keep_it():
-    shape = fold(2, nx=31, ny=9)
-    links = links_of(shape.points, 25)
-    near = is_near(links, shape.triangles)
-    assert 0 < (~near).sum() < near.sum()
-    judged = distrust_far(links, shape.triangles)
-    assert np.array_equal(judged.trust[near], links.trust[near])
-    assert np.allclose(judged.trust[~near], FAR_TRUST * links.trust[~near], rtol=1e-15)
-    assert np.array_equal(judged.neighborhoods.indices, links.neighborhoods.indices)
 
 
 # Disputes

@@ -524,8 +524,9 @@ def test_the_stages_are_timed_in_order():
         "boundary",
         "map",
         "triangulate",
+        "recover",
         "swap",
-        "compare",
+        "relocate",
         "parameters",
         "certify",
     ]

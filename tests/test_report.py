@@ -11,6 +11,7 @@ from pointchart.report import (
     boundary_lines,
     certificate_lines,
     certificate_report,
+    intersection_lines,
     peak_memory_mb,
     run_report,
     summary,
@@ -201,6 +202,20 @@ def test_gaps_and_doubts_have_a_line_each_with_the_size_and_place_of_the_largest
         "look at 2 places that the mesh spans by edges of over four spacings although the scan has no gap there, the "
         "largest at vertex 31 (4, 3, 0)",
     ]
+
+
+def test_a_mesh_that_passes_through_itself_is_reported_with_the_place(sheet):
+    points, result = sheet
+    turn = points[:, 0] / 8 * (np.pi + 1.0) - 0.5
+    eight = np.c_[np.sin(turn), points[:, 1], np.sin(turn) * np.cos(turn)]
+    for scan, count in ((points, 0), (eight, 1)):
+        run = run_report(scan, np.arange(len(scan)), result, StageClock(), {}, boundary_given=False)
+        found = run["quality"]["self_intersections"]
+        assert (found["pairs"] > 0, found["count"], len(found["places"])) == (count > 0, count, count)
+        assert len(intersection_lines(run)) == count
+    (line,) = intersection_lines(run)
+    assert np.abs(np.array(found["places"])[0, [0, 2]]).max() < 0.5
+    assert re.fullmatch(r"look at 1 places where the mesh passes through itself, the first at \(.*, .*, .*\)", line)
 
 
 def test_a_report_comes_back_from_its_file(run, tmp_path):

@@ -24,19 +24,36 @@ from .boundary import (
     uniform_steps,
 )
 from .certify import Certificate, certify
-from .chart import uv_of_points, uv_on_mesh
+from .chart import uv_free_boundary, uv_low_stretch, uv_of_points, uv_on_mesh
 from .clock import StageClock
 from .components import largest_component
+from .curvature_swaps import (
+    swap_to_least_curvature,
+    swap_to_least_gaussian_curvature,
+    swap_to_least_mean_curvature,
+    swap_to_least_turn,
+)
+from .dirichlet import Flattened, minimize_dirichlet
 from .errors import FormatError, InputError, PointchartError, SolveError
 from .gaps import bridge_gaps, leave_gaps_open, refuse_second_boundary
+from .intersections import self_intersections
 from .io import Scan, read_loop, read_scan, write_curves, write_loop, write_mesh, write_uv
-from .links import Links, distrust_far, link_stars, trusted
+from .links import Links, link_stars, trusted
 from .mesh import one_rings
 from .neighbors import Neighborhoods, ball, nearest, spacing
 from .parameterize import Parameterization, parameterize
 from .pipeline import Reconstruction, parameterize_scan, reconstruct
 from .prepare import Cloud, prepare
-from .quality import l2_stretch, least_distance, radius_ratios, stretches
+from .quality import (
+    area_distortions,
+    conformal_distortions,
+    l2_stretch,
+    least_distance,
+    linf_stretch,
+    radius_ratios,
+    stretches,
+    vertex_stretches,
+)
 from .solve import Solution, bicgstab, cholesky, conjugate_gradient, direct, multigrid, solve_fixed
 from .stars import delaunay_star, nearest_star, normals, smooth
 from .survey import Survey, survey_scan
@@ -50,6 +67,7 @@ __all__ = [
     "Candidate",
     "Certificate",
     "Cloud",
+    "Flattened",
     "FormatError",
     "FoundBoundary",
     "InputError",
@@ -67,6 +85,7 @@ __all__ = [
     "Vicinity",
     "angular_gaps",
     "anticlockwise",
+    "area_distortions",
     "ball",
     "bicgstab",
     "boundary_scores",
@@ -76,10 +95,10 @@ __all__ = [
     "cholesky",
     "chord_length_on_circle",
     "chord_length_steps",
+    "conformal_distortions",
     "conjugate_gradient",
     "delaunay_star",
     "direct",
-    "distrust_far",
     "explore",
     "find_boundary",
     "hull_test",
@@ -88,8 +107,10 @@ __all__ = [
     "largest_component",
     "least_distance",
     "leave_gaps_open",
+    "linf_stretch",
     "link_stars",
     "mean_value",
+    "minimize_dirichlet",
     "multigrid",
     "nearest",
     "nearest_star",
@@ -109,6 +130,7 @@ __all__ = [
     "reciprocal_distance",
     "reconstruct",
     "refuse_second_boundary",
+    "self_intersections",
     "shape_preserving",
     "sharpest_places",
     "smooth",
@@ -117,12 +139,19 @@ __all__ = [
     "stretches",
     "survey_scan",
     "swap_to_delaunay",
+    "swap_to_least_curvature",
+    "swap_to_least_gaussian_curvature",
+    "swap_to_least_mean_curvature",
+    "swap_to_least_turn",
     "triangulate",
     "trusted",
     "uniform",
     "uniform_steps",
+    "uv_free_boundary",
+    "uv_low_stretch",
     "uv_of_points",
     "uv_on_mesh",
+    "vertex_stretches",
     "write_curves",
     "write_loop",
     "write_mesh",

@@ -1,19 +1,23 @@
-"""The parameters of a finished mesh: one-to-one on the mesh, or the paper's own."""
+"""The parameters of a finished mesh: one-to-one on the mesh in three ways, or the paper's own."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import suppress
+from itertools import islice
 from typing import TypeAlias, cast
 
 from ._exact import orientation_signs
+from .dirichlet import minimize_dirichlet
 from .errors import SolveError
 from .mesh import one_rings
 from .parameterize import Parameterization, parameterize, solve_map
-from .quality import vertex_stretches
+from .quality import l2_stretch, vertex_stretches
 from .refine import Meshed
 from .solve import Solver
-from .typing import UV, Loop, Points, Weights
-from .weights import WeightScheme, mean_value, normalize, uniform
+from .typing import UV, Loop, Points, Triangles
+from .weights import WeightScheme, fixed, mean_value, normalize, uniform
 
 SOLVES = 5
+RELAXATIONS = 8  # the stretch falls most in the first two; thin limbs go on to open up to the eighth
 
 ChartRule: TypeAlias = Callable[[Points, Loop, UV, Meshed, Solver], Parameterization]
 
@@ -47,29 +51,103 @@ def uv_on_mesh(points: Points, loop: Loop, boundary_uv: UV, meshed: Meshed, solv
     Yoshizawa, Belyaev and Seidel 2004, A fast and simple stretch-minimizing mesh parameterization.
     """
     triangles = meshed.swapped.triangles
-    rings = one_rings(triangles, len(points))
     mapped: Parameterization | None = None
     failure: SolveError | None = None
     for scheme in (mean_value, uniform):
-        weights = scheme(points, rings)
-        for _ in range(SOLVES):
-            try:
-                mapped = solve_map(points, loop, boundary_uv, rings, weights=fixed(weights), solver=solver)
-            except SolveError as reason:
-                failure = failure or reason
-                break
-            if (orientation_signs(mapped.uv, triangles) > 0).all():
-                return mapped
-            stretch = vertex_stretches(points, triangles, mapped.uv)
-            weights = normalize(weights / stretch[rings.indices], rings)
+        try:
+            for mapped in islice(relaxations(points, loop, boundary_uv, triangles, scheme, solver), SOLVES):
+                if is_positive(mapped.uv, triangles):
+                    return mapped
+        except SolveError as reason:
+            failure = failure or reason
     if mapped is None:
         raise cast(SolveError, failure)
     return mapped
 
 
-def fixed(weights: Weights) -> WeightScheme:
-    """Make a scheme of weights that are known already."""
-    return lambda points, neighborhoods: weights
+def uv_low_stretch(points: Points, loop: Loop, boundary_uv: UV, meshed: Meshed, solver: Solver) -> Parameterization:
+    r"""Map the mesh to the same domain with little stretch, one-to-one: ears and fingers get their share of the plane.
+
+    From the map of `uv_on_mesh`, weights are divided by the stretch at the neighbour, and the map is solved again:
+
+    .. math:: \lambda_{ij} \leftarrow \lambda_{ij} / \sigma_j
+
+    Weights stay positive, so Tutte's theorem holds throughout. Of the first eight such maps, that of least L2 stretch
+    is kept; where none is better than the start, uniform weights are tried in the same way. It pays with angles: the
+    map is far from conformal.
+
+    Parameters
+    ----------
+    points, loop, boundary_uv, meshed, solver
+        See `uv_on_mesh`.
+
+    Returns
+    -------
+    Parameterization
+
+    References
+    ----------
+    Yoshizawa, Belyaev and Seidel 2004, A fast and simple stretch-minimizing mesh parameterization, section 3.
+    """
+    triangles = meshed.swapped.triangles
+    best = uv_on_mesh(points, loop, boundary_uv, meshed, solver)
+    least = l2_stretch(points, triangles, best.uv) if is_positive(best.uv, triangles) else float("inf")
+    start = best
+    for scheme in (mean_value, uniform):
+        # Where weights go out of hand, the maps before stand.
+        with suppress(SolveError):
+            for mapped in islice(relaxations(points, loop, boundary_uv, triangles, scheme, solver), RELAXATIONS + 1):
+                stretch = l2_stretch(points, triangles, mapped.uv)
+                if stretch < least and is_positive(mapped.uv, triangles):
+                    best, least = mapped, stretch
+        if best is not start:
+            break
+    return best
+
+
+def uv_free_boundary(points: Points, loop: Loop, boundary_uv: UV, meshed: Meshed, solver: Solver) -> Parameterization:
+    """Map the mesh with a free boundary and the least distortion of lengths, one-to-one: for texturing.
+
+    Lengths, angles and areas are all kept as well as may be (symmetric Dirichlet energy), from the map of
+    `uv_low_stretch`; a developable surface comes out isometric. The parameters have the area of the surface.
+
+    Parameters
+    ----------
+    points, loop, boundary_uv, meshed, solver
+        See `uv_on_mesh`; the domain and the solver serve for the start only.
+
+    Returns
+    -------
+    Parameterization
+        One-to-one; the start itself, where that is not.
+
+    References
+    ----------
+    Smith and Schaefer 2015, Bijective parameterization with free boundaries.
+    """
+    triangles = meshed.swapped.triangles
+    start = uv_low_stretch(points, loop, boundary_uv, meshed, solver)
+    if not is_positive(start.uv, triangles):
+        return start
+    flattened = minimize_dirichlet(points, triangles, loop, start.uv)
+    return Parameterization(flattened.uv, loop, flattened.solution)
+
+
+def relaxations(
+    points: Points, loop: Loop, boundary_uv: UV, triangles: Triangles, scheme: WeightScheme, solver: Solver
+) -> Iterator[Parameterization]:
+    """Map a mesh again and again, each time with weights divided by the last map's stretch at the neighbour."""
+    rings = one_rings(triangles, len(points))
+    weights = scheme(points, rings)
+    while True:
+        mapped = solve_map(points, loop, boundary_uv, rings, weights=fixed(weights), solver=solver)
+        yield mapped
+        weights = normalize(weights / vertex_stretches(points, triangles, mapped.uv)[rings.indices], rings)
+
+
+def is_positive(uv: UV, triangles: Triangles) -> bool:
+    """Tell exactly whether all triangles are anticlockwise."""
+    return bool((orientation_signs(uv, triangles) > 0).all())
 
 
 def uv_of_points(points: Points, loop: Loop, boundary_uv: UV, meshed: Meshed, solver: Solver) -> Parameterization:

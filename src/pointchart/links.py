@@ -14,7 +14,6 @@ from .typing import Floats, Indices, Mask, Points, Triangles, Weights
 from .weights import WeightScheme, normalize, reciprocal_distance
 
 LONE_TRUST = 0.01  # a link that only one star sees: never 0, since the graph must stay connected
-FAR_TRUST = 0.001  # a link that the mesh contradicts
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -95,33 +94,15 @@ def _agree(star: Neighborhoods) -> Mask:
     return agrees
 
 
-def distrust_far(links: Links, triangles: Triangles) -> Links:
-    """Take the trust from links whose ends are more than two edges apart on a mesh.
-
-    Parameters
-    ----------
-    links : Links
-    triangles : (m, 3) int array
-        A mesh found with these links.
-
-    Returns
-    -------
-    Links
+def is_near(links: Links, triangles: Triangles) -> Mask:
+    """Tell for each link whether its ends are at most two edges apart on a mesh, (nnz,).
 
     Examples
     --------
-    >>> import numpy as np
     >>> pair = Links(Neighborhoods(np.array([0, 1, 1, 1, 1, 2]), np.array([4, 0])), np.ones(2))
-    >>> strip = np.array([[0, 1, 2], [2, 1, 3], [2, 3, 4]])
-    >>> distrust_far(pair, strip).trust
-    array([1., 1.])
+    >>> is_near(pair, np.array([[0, 1, 2], [2, 1, 3], [2, 3, 4]]))
+    array([ True,  True])
     """
-    near = is_near(links, triangles)
-    return Links(links.neighborhoods, np.where(near, links.trust, FAR_TRUST * links.trust))
-
-
-def is_near(links: Links, triangles: Triangles) -> Mask:
-    """Tell for each link whether its ends are at most two edges apart on a mesh, (nnz,)."""
     graph = links.neighborhoods
     rings = one_rings(triangles, graph.n_points)
     near = np.empty(len(graph.indices), np.bool_)

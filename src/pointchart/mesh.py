@@ -5,10 +5,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from ._check import check_triangles
+from ._kernels.drafts import Draft
 from ._kernels.half_edges import count_fans, order_rings, pair_half_edges
 from .errors import InputError
 from .neighbors import Neighborhoods
-from .typing import Indices, Loop, Triangles
+from .typing import Indices, Loop, Points, Triangles
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -45,6 +46,30 @@ def half_edges(triangles: Triangles, n_points: int) -> HalfEdges:
     twins = np.empty_like(origins)
     overfull = pair_half_edges(origins, n_points, twins)
     return HalfEdges(origins, targets, twins, int(overfull))
+
+
+def start_draft(points: Points, triangles: Triangles, *, journal: int) -> Draft:
+    """Copy a manifold mesh for edits that can be undone.
+
+    Parameters
+    ----------
+    points : (n, 3) float64 array
+    triangles : (m, 3) int64 array
+        With every point in some triangle.
+    journal : int
+        Triangles that one edit may touch, each as often as it does.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> draft = start_draft(np.eye(3), np.array([[0, 1, 2]]), journal=0)
+    >>> draft.leaving
+    array([0, 1, 2])
+    """
+    edges = half_edges(triangles, len(points))
+    leaving = np.full(len(points), -1, np.int64)
+    leaving[edges.origins] = np.arange(len(edges.origins))
+    return Draft(points, edges.origins, edges.twins, leaving, np.empty((journal, 7), np.int64))
 
 
 def boundary_loops(edges: HalfEdges) -> list[Loop]:

@@ -9,18 +9,18 @@ from numpy.typing import ArrayLike
 from .boundary import Candidate, chord_length_on_circle
 from .bridges import Bridge, find_bridges, open_gaps
 from .certify import Certificate, certify
-from .chart import ChartRule, uv_on_mesh
+from .chart import ChartRule, uv_free_boundary, uv_low_stretch, uv_on_mesh
 from .clock import StageClock
 from .errors import PointchartError, SolveError, points_called
 from .gaps import GapRule, Rims, bridge_gaps, check_torn, refuse_second_boundary
-from .links import disputed_links, link_stars
+from .links import disputed_links, link_stars, trusted
 from .neighbors import Neighborhoods, nearest
 from .parameterize import Parameterization, parameterize
-from .refine import Meshed, SwapRule, mesh_once, mesh_repeatedly
+from .refine import Meshed, SwapRule, mesh_by_links, mesh_once
 from .solve import Solver, default_solver
 from .stars import nearest_star
 from .survey import Survey, survey_scan
-from .swaps import swap_off_sides, swap_to_delaunay
+from .swaps import keep_edges, swap_off_sides, swap_to_delaunay
 from .typing import UV, Indices, Loop, Points, Triangles
 from .vicinity import NEAREST
 from .weights import WeightScheme, mean_value
@@ -71,7 +71,7 @@ class Evidence:
     failures : list of PointchartError
         Why better candidates for the boundary did not do, naming rows of the scan.
     meshed : Meshed
-        The first map, the swaps and the rounds, in the numbering of the prepared cloud.
+        The first map, the swaps and what was mended, in the numbering of the prepared cloud.
     chart : Parameterization
         The map that `uv` comes from, in the numbering of the prepared cloud.
     """
@@ -113,17 +113,19 @@ def reconstruct(
     connect : callable, optional
         ``connect(points) -> Neighborhoods``, as for the paper's methods, to be used with `weights`; it is called with
         the distinct points in spatial order, in the unit of the scan. If not given, Delaunay stars are linked by
-        their agreement, and links that the mesh contradicts lose their trust.
+        their agreement, and the links mend the mesh.
     weights : callable
         ``weights(points, neighborhoods) -> (nnz,)`` for the neighbourhoods of `connect`, or of the Delaunay stars; mean
         value weights, if only `connect` is given.
     swap : callable
-        ``swap(points, triangles) -> Swapped``: `swap_to_delaunay` or `keep_edges`.
+        ``swap(points, triangles) -> Swapped``, for the mesh after the Delaunay swaps: `swap_to_delaunay` leaves it so,
+        `swap_to_least_turn` and others look for creases. `keep_edges` leaves the triangulation of the parameters.
     layout : callable
         ``layout(points, loop) -> (b, 2)``: where the boundary goes on the convex domain of `uv`; called with the scan
         and its boundary rows, anticlockwise. The mesh is always made from a map to the circle.
     chart : callable
-        `uv_on_mesh`, one-to-one, or `uv_of_points`, the paper's own parameters.
+        `uv_on_mesh`, one-to-one; `uv_low_stretch`, one-to-one with little stretch; `uv_free_boundary`, one-to-one with
+        a free boundary and the least distortion; or `uv_of_points`, the paper's own parameters.
     solver : callable, optional
         See `solve_fixed`.
     clock : StageClock, optional
@@ -160,9 +162,11 @@ def reconstruct(
     cloud, rim = survey.cloud, stand.survey.loop
     boundary_uv = layout(survey.scan, cloud.rows[rim])
     with points_called(cloud.rows):
+        with clock("swap"):
+            meshed = _swapped_again(cloud.points, stand.meshed, swap)
         with clock("parameters"):
-            meshed = replace(stand.meshed, swapped=swap_off_sides(stand.meshed.swapped, rim, boundary_uv))
-            mapped = chart(cloud.points, rim, boundary_uv, meshed, solver)
+            meshed = replace(meshed, swapped=swap_off_sides(meshed.swapped, rim, boundary_uv))
+            mapped = chart(cloud.scale * cloud.points, rim, boundary_uv, meshed, solver)
         with clock("certify"):
             patches = stand.rims.patches(stand.opened, meshed.swapped.triangles)
             triangles, holes = open_gaps(meshed.swapped.triangles, patches, len(cloud.points))
@@ -275,17 +279,26 @@ def _mesh(
         with clock("neighbours"):
             as_read = nearest_star(points, survey.vicinity.around)
             links = link_stars(survey.vicinity.star, also=as_read)
-        return mesh_repeatedly(points, rim, circle, links, swap=swap, solver=solver, clock=clock)
-    with clock("neighbours"):
-        neighborhoods = (connect or _default_stars)(points * survey.cloud.scale)
-    scheme = weights or mean_value
-    return mesh_once(points, rim, circle, neighborhoods, weights=scheme, swap=swap, solver=solver, clock=clock)
+        if swap is not keep_edges:
+            return mesh_by_links(points, rim, circle, links, survey.vicinity.around, solver=solver, clock=clock)
+        neighborhoods, scheme = links.neighborhoods, trusted(links)
+    else:
+        with clock("neighbours"):
+            neighborhoods, scheme = (connect or _default_stars)(points * survey.cloud.scale), weights or mean_value
+    first = keep_edges if swap is keep_edges else swap_to_delaunay
+    return mesh_once(points, rim, circle, neighborhoods, weights=scheme, swap=first, solver=solver, clock=clock)
+
+
+def _swapped_again(points: Points, meshed: Meshed, swap: SwapRule) -> Meshed:
+    """Swap edges of a mesh that stands: other costs may make long edges, which are no bridges then."""
+    last = swap(points, meshed.swapped.triangles)
+    return replace(meshed, swapped=replace(last, n_swaps=meshed.swapped.n_swaps + last.n_swaps))
 
 
 def _check_proof(proof: Certificate, chart: ChartRule) -> None:
     if not proof.is_as_asked:
         raise SolveError(f"the mesh is no disc: {', '.join(proof.faults)}; give another boundary or neighbourhood")
-    if chart is uv_on_mesh and not proof.is_one_to_one:
+    if chart in (uv_on_mesh, uv_low_stretch, uv_free_boundary) and not proof.is_one_to_one:
         raise SolveError(
             f"the parameters are not one-to-one: {proof.flat_or_folded_uv} triangles are flat and "
             f"{proof.coinciding_uv} points coincide: a part of the surface is too long for its neck in double "

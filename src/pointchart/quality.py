@@ -149,6 +149,88 @@ def l2_stretch(points: Points, triangles: Triangles, uv: UV) -> float:
     return float(np.sqrt(mean)) if np.isfinite(mean) else float("inf")
 
 
+def linf_stretch(points: Points, triangles: Triangles, uv: UV) -> float:
+    """Return the largest stretch of all triangles; 1 for an isometry, infinite for a flat triangle.
+
+    References
+    ----------
+    Sander, Snyder, Gortler and Hoppe 2001, section 3.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> flat = np.array([[0.0, 0, 0], [4, 0, 0], [0, 1, 0]])
+    >>> linf_stretch(flat, np.array([[0, 1, 2]]), np.array([[0.0, 0], [2, 0], [0, 2]]))
+    2.0
+    """
+    largest, _ = stretches(points, triangles, uv)
+    return float(largest.max()) if np.isfinite(largest).all() else float("inf")
+
+
+def conformal_distortions(points: Points, triangles: Triangles, uv: UV) -> Floats:
+    r"""Measure by how much angles change, triangle by triangle: 1 where they are kept, infinite in a flat triangle.
+
+    .. math:: \sigma_1 / \sigma_2
+
+    Returns
+    -------
+    (m,) float64 array, dimensionless.
+
+    References
+    ----------
+    Hormann and Greiner 2000, MIPS: an efficient global parametrization method, section 3.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> flat = np.array([[0.0, 0, 0], [4, 0, 0], [0, 1, 0]])
+    >>> conformal_distortions(flat, np.array([[0, 1, 2]]), np.array([[0.0, 0], [2, 0], [0, 2]]))
+    array([4.])
+    """
+    largest, _ = stretches(points, triangles, uv)
+    # The product of both is a ratio of areas, which keeps the digits that the smaller one alone has lost.
+    product = _area_ratios(points, triangles, uv)
+    is_whole = np.isfinite(largest) & (product > 0.0)
+    return np.asarray(np.divide(largest**2, product, out=np.full(len(triangles), np.inf), where=is_whole))
+
+
+def area_distortions(points: Points, triangles: Triangles, uv: UV) -> Floats:
+    r"""Measure by how many times each triangle is too large or too small: 1 where areas are kept.
+
+    .. math:: \max(\sigma_1 \sigma_2, 1 / (\sigma_1 \sigma_2))
+
+    Parameters are scaled as for `stretches`, so that plane and surface have the same area.
+
+    Returns
+    -------
+    (m,) float64 array, dimensionless; infinite in a triangle that is flat in the plane or in space.
+
+    References
+    ----------
+    Hormann, Levy and Sheffer 2007, Mesh parameterization: theory and practice, section 3.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> strip = np.array([[0.0, 0, 0], [1, 0, 0], [0, 2, 0], [-3, 0, 0]])
+    >>> uv = np.array([[0.0, 0], [2, 0], [0, 2], [-2, 0]])
+    >>> area_distortions(strip, np.array([[0, 1, 2], [0, 2, 3]]), uv)
+    array([2. , 1.5])
+    """
+    ratio = _area_ratios(points, triangles, uv)
+    inverse = np.divide(1.0, ratio, out=np.full(len(ratio), np.inf), where=ratio > 0.0)
+    return np.asarray(np.maximum(ratio, inverse))
+
+
+def _area_ratios(points: Points, triangles: Triangles, uv: UV) -> Floats:
+    """Divide the area of each triangle by that of its image, after scaling as for `stretches`; infinite if flat."""
+    area = np.linalg.norm(area_vectors(points, triangles), axis=1)
+    e1, e2 = (uv[triangles[:, k]] - uv[triangles[:, 0]] for k in (1, 2))
+    image = 0.5 * np.abs(e1[:, 0] * e2[:, 1] - e1[:, 1] * e2[:, 0])
+    share, image_share = area / area.sum(), image / image.sum()
+    return np.asarray(np.divide(share, image_share, out=np.full(len(triangles), np.inf), where=image_share > 0.0))
+
+
 def least_distance(uv: UV) -> float:
     """Return the least distance between two parameter points.
 

@@ -1,47 +1,49 @@
-"""From points to a mesh: map, triangulate, swap; and again with the links distrusted that the mesh contradicts."""
+"""From points to a mesh: map, triangulate, swap; by links of the surface, also recover edges and relocate points."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 from .clock import StageClock
-from .links import Links, distrust_far, is_near, trusted
+from .links import Links, trusted
 from .neighbors import Neighborhoods
 from .parameterize import Parameterization, parameterize
+from .recover import recover_links
+from .relocate import relocate_points, suspect_points
+from .reopen import parameterize_open
 from .solve import Solver
-from .swaps import Swapped
+from .swaps import Swapped, swap_to_delaunay
 from .triangulate import separate, triangulate
 from .typing import UV, Loop, Points, Triangles
 from .weights import WeightScheme
 
 SwapRule = Callable[[Points, Triangles], Swapped]
 
-MOST_ROUNDS = 4
-TOLERATED = (
-    0.01  # share of trusted links that a sound mesh contradicts: long diagonals, on every scan with thin triangles
-)
-LEAST_GAIN = 0.9
+PASSES = 3  # of relocation and swaps, each from the points that the mesh before contradicts
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Meshed:
-    """A mesh, the map it came from, and how far the neighbourhoods contradict it.
+    """A mesh, the map it came from, and what was mended on the way.
 
     Attributes
     ----------
     neighborhoods : Neighborhoods
     weights : WeightScheme
-        What the first map was made with.
+        What the map was made with.
     first_map : Parameterization
     swapped : Swapped
-    contradicted : tuple of float
-        After each round, the share of trusted links whose ends are more than two edges apart on the mesh.
+    n_recovered : int
+        Links that were made edges before the swaps.
+    n_relocated : int
+        Moves of points to other places of the mesh.
     """
 
     neighborhoods: Neighborhoods
     weights: WeightScheme
     first_map: Parameterization
     swapped: Swapped
-    contradicted: tuple[float, ...]
+    n_recovered: int = 0
+    n_relocated: int = 0
 
 
 def mesh_once(
@@ -61,38 +63,43 @@ def mesh_once(
     with clock("triangulate"):
         triangles = triangulate(separate(first_map.uv, first_map.loop), first_map.loop)
     with clock("swap"):
-        return Meshed(neighborhoods, weights, first_map, swap(points, triangles), ())
+        return Meshed(neighborhoods, weights, first_map, swap(points, triangles))
 
 
-def mesh_repeatedly(
+def mesh_by_links(
     points: Points,
     loop: Loop,
     layout: UV,
     links: Links,
+    around: Neighborhoods,
     *,
-    swap: SwapRule,
     solver: Solver,
     clock: StageClock,
 ) -> Meshed:
-    """Mesh the points; while the mesh contradicts many links and ever fewer, mesh them again without trust in those.
+    """Map the points by links of the surface, and let the links mend what the map gets wrong.
 
-    Links across to a second sheet, such as from lip to lip, pull the map together there. On the mesh their ends are far
-    apart, which gives them away.
+    Where sheets are close or a part is narrow, the map folds, or its triangulation joins points that are far apart. So
+    links on which stars agree are recovered as edges, and points whose links the mesh contradicts are moved to where
+    they cost less. `around` holds the near points at whose triangles they may be put.
     """
-    history: list[float] = []
-    current = links
-    while True:
-        meshed = mesh_once(
-            points, loop, layout, current.neighborhoods, weights=trusted(current), swap=swap, solver=solver, clock=clock
-        )
-        with clock("compare"):
-            is_far = ~is_near(links, meshed.swapped.triangles)
-            # On a grid no star agrees with another, and all links are trusted alike.
-            contradicted = float(is_far[links.trust == links.trust.max()].mean())
-            if not history or contradicted < min(history):
-                best = meshed
-            gains = not history or contradicted < LEAST_GAIN * min(history)
-            history.append(contradicted)
-            if contradicted <= TOLERATED or not gains or len(history) == MOST_ROUNDS:
-                return replace(best, contradicted=tuple(history))
-            current = distrust_far(links, meshed.swapped.triangles)
+    graph = links.neighborhoods
+    with clock("map"):
+        first_map, weights = parameterize_open(points, loop, layout, graph, weights=trusted(links), solver=solver)
+    with clock("triangulate"):
+        triangles = triangulate(separate(first_map.uv, loop), loop)
+    with clock("recover"):
+        recovered = recover_links(points, first_map.uv, triangles, links)
+    with clock("swap"):
+        swapped = swap_to_delaunay(points, recovered.triangles)
+    n_swaps, n_moves = swapped.n_swaps, 0
+    for _ in range(PASSES):
+        with clock("relocate"):
+            suspects = suspect_points(links, swapped.triangles)
+            relocated = relocate_points(points, swapped.triangles, around, suspects)
+        if relocated.n_moves == 0:
+            break
+        with clock("swap"):
+            swapped = swap_to_delaunay(points, relocated.triangles)
+        n_swaps, n_moves = n_swaps + swapped.n_swaps, n_moves + relocated.n_moves
+    total = replace(swapped, n_swaps=n_swaps)
+    return Meshed(graph, weights, first_map, total, recovered.n_recovered, n_moves)

@@ -14,12 +14,22 @@ from .bridges import Bridge
 from .certify import Certificate
 from .clock import StageClock
 from .gaps import place_of
+from .intersections import places_of, self_intersections
 from .io import replacing
 from .pipeline import Reconstruction
-from .quality import l2_stretch, least_distance, radius_ratios
+from .quality import (
+    area_distortions,
+    area_vectors,
+    conformal_distortions,
+    l2_stretch,
+    least_distance,
+    linf_stretch,
+    radius_ratios,
+)
 from .solve import Solution
-from .typing import Indices, Points
+from .typing import UV, Floats, Indices, Points, Triangles
 
+MOST_PLACES = 10
 CHECKS = (
     ("every point used", "unused_points", "{} unused"),
     ("edges manifold, orientation consistent", "overfull_edges", "{} edges at fault"),
@@ -90,6 +100,15 @@ def summary(proof: Certificate) -> str:
     )
 
 
+def intersection_lines(run: dict[str, Any]) -> list[str]:
+    """Say where the mesh of a run passes through itself, given its report; no line if it does not."""
+    found = run["quality"]["self_intersections"]
+    if not found["count"]:
+        return []
+    first = place_of(np.array(found["places"]), 0)
+    return [f"look at {found['count']} places where the mesh passes through itself, the first at {first}"]
+
+
 def run_report(
     scan: Points,
     rows: Indices,
@@ -119,8 +138,6 @@ def run_report(
     """
     points = scan[rows[result.rows]]
     solution = result.evidence.meshed.first_map.solution
-    stretch = l2_stretch(points, result.triangles, result.uv)
-    ratios = radius_ratios(points, result.triangles)
     return {
         "points": {
             "read": len(scan),
@@ -145,14 +162,29 @@ def run_report(
         "swaps": {
             "count": result.evidence.meshed.swapped.n_swaps,
             "settled": result.evidence.meshed.swapped.is_settled,
-            "contradicted_links": [round(share, 6) for share in result.evidence.meshed.contradicted],
+            "recovered_links": result.evidence.meshed.n_recovered,
+            "relocated_points": result.evidence.meshed.n_relocated,
         },
         "certificate": certificate_report(result.certificate),
-        "quality": {
-            "radius_ratio": {"least": float(ratios.min()), "median": float(np.median(ratios))},
-            "l2_stretch": stretch if np.isfinite(stretch) else None,
-            "least_uv_distance": least_distance(result.uv),
-        },
+        "quality": quality_report(points, result.triangles, result.uv),
+    }
+
+
+def quality_report(points: Points, triangles: Triangles, uv: UV) -> dict[str, Any]:
+    """Return the shape of the triangles and the distortion of the map as plain data for JSON; None is infinite.
+
+    `mean` and `percentile_95` weigh triangles by their area in space.
+    """
+    ratios = radius_ratios(points, triangles)
+    area = np.linalg.norm(area_vectors(points, triangles), axis=1)
+    return {
+        "radius_ratio": {"least": float(ratios.min()), "median": float(np.median(ratios))},
+        "l2_stretch": _finite(l2_stretch(points, triangles, uv)),
+        "linf_stretch": _finite(linf_stretch(points, triangles, uv)),
+        "conformal": _spread(conformal_distortions(points, triangles, uv), area),
+        "area": _spread(area_distortions(points, triangles, uv), area),
+        "least_uv_distance": least_distance(uv),
+        "self_intersections": _self_intersections(points, triangles),
     }
 
 
@@ -220,8 +252,31 @@ def peak_memory_mb() -> int | None:
     return int(peak // (1024 * 1024 if sys.platform == "darwin" else 1024))
 
 
+def _finite(value: float) -> float | None:
+    return float(value) if np.isfinite(value) else None
+
+
+def _spread(values: Floats, weights: Floats) -> dict[str, float | None]:
+    # Triangles without area in space have no shape that a map could keep.
+    values, weights = values[weights > 0.0], weights[weights > 0.0]
+    order = np.argsort(values)
+    up_to = np.cumsum(weights[order])
+    place = min(int(np.searchsorted(up_to, 0.95 * up_to[-1])), len(values) - 1)
+    return {
+        "mean": _finite(float(values @ weights / up_to[-1])),
+        "percentile_95": _finite(values[order[place]]),
+        "largest": _finite(values.max()),
+    }
+
+
 def _line(passed: bool, name: str, fault: str, count: int | None) -> str:
     return f"[ok] {name}" if passed else f"[!!] {name}: {fault.format(count)}"
+
+
+def _self_intersections(points: Points, triangles: Triangles) -> dict[str, Any]:
+    pairs = self_intersections(points, triangles)
+    places = places_of(points, triangles, pairs)
+    return {"pairs": len(pairs), "count": len(places), "places": places[:MOST_PLACES].tolist()}
 
 
 def _loop(candidate: Candidate) -> dict[str, Any]:

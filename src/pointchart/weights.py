@@ -26,6 +26,11 @@ def normalize(weights: Weights, neighborhoods: Neighborhoods) -> Weights:
     return np.asarray(weights / np.bincount(rows, weights, neighborhoods.n_points)[rows])
 
 
+def fixed(weights: Weights) -> WeightScheme:
+    """Make a scheme of weights that are known already."""
+    return lambda points, neighborhoods: weights
+
+
 def uniform(points: Points, neighborhoods: Neighborhoods) -> Weights:
     r"""Weigh all neighbours alike: :math:`\lambda_{ij} = 1 / |N_i|`.
 

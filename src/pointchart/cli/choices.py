@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import typer
 
-from .. import boundary, chart, gaps, neighbors, stars, swaps, vicinity, weights
+from .. import boundary, chart, curvature_swaps, gaps, neighbors, stars, swaps, vicinity, weights
 from ..chart import ChartRule
 from ..gaps import GapRule
 from ..neighbors import Neighborhoods
@@ -67,6 +67,10 @@ class Swap(StrEnum):
     """Kinds of edge swaps."""
 
     delaunay = "delaunay"
+    normals = "normals"
+    mean_curvature = "mean-curvature"
+    gaussian_curvature = "gaussian-curvature"
+    curvature = "curvature"
     none = "none"
 
 
@@ -74,6 +78,8 @@ class Chart(StrEnum):
     """Kinds of parameters."""
 
     mesh = "mesh"
+    low_stretch = "low-stretch"
+    free = "free"
     paper = "paper"
 
 
@@ -89,8 +95,20 @@ STEPS: dict[Spacing, Callable[[Points, Loop], Floats]] = {
     Spacing.centripetal: boundary.centripetal_steps,
 }
 GAPS: dict[Holes, GapRule] = {Holes.bridge: gaps.bridge_gaps, Holes.open: gaps.leave_gaps_open}
-SWAPS: dict[Swap, SwapRule] = {Swap.delaunay: swaps.swap_to_delaunay, Swap.none: swaps.keep_edges}
-CHARTS: dict[Chart, ChartRule] = {Chart.mesh: chart.uv_on_mesh, Chart.paper: chart.uv_of_points}
+SWAPS: dict[Swap, SwapRule] = {
+    Swap.delaunay: swaps.swap_to_delaunay,
+    Swap.normals: curvature_swaps.swap_to_least_turn,
+    Swap.mean_curvature: curvature_swaps.swap_to_least_mean_curvature,
+    Swap.gaussian_curvature: curvature_swaps.swap_to_least_gaussian_curvature,
+    Swap.curvature: curvature_swaps.swap_to_least_curvature,
+    Swap.none: swaps.keep_edges,
+}
+CHARTS: dict[Chart, ChartRule] = {
+    Chart.mesh: chart.uv_on_mesh,
+    Chart.low_stretch: chart.uv_low_stretch,
+    Chart.free: chart.uv_free_boundary,
+    Chart.paper: chart.uv_of_points,
+}
 
 
 def connect_rule(kind: Neighbors | None, k: int | None, radius: float | None) -> Connect | None:

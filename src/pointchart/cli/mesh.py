@@ -9,7 +9,8 @@ import typer
 from ..errors import points_called
 from ..io import MESH_SUFFIXES, write_mesh
 from ..pipeline import reconstruct
-from ..report import boundary_lines, certificate_lines, run_report, summary, writing_json
+from ..quality import vertex_stretches
+from ..report import boundary_lines, certificate_lines, intersection_lines, run_report, summary, writing_json
 from ..typing import Indices
 from . import options as given
 from .choices import (
@@ -29,6 +30,8 @@ from .choices import (
 from .inputs import Inputs, read_inputs
 from .output import carried, given_options
 from .progress import staged
+
+HOLD_STRETCH = (".ply", ".npz")
 
 
 def mesh(
@@ -50,7 +53,11 @@ def mesh(
     spacing: given.SpacingOption = Spacing.chord,
     swap: Annotated[Swap, typer.Option("--swap", help="Edge swaps in space after the triangulation.")] = Swap.delaunay,
     uv: Annotated[
-        Chart, typer.Option("--uv", help="Parameters: mesh, one-to-one, or the paper's own, which may fold.")
+        Chart,
+        typer.Option(
+            "--uv",
+            help="Parameters: one-to-one on the mesh, with low stretch, with a free boundary, or the paper's own.",
+        ),
     ] = Chart.mesh,
     report: given.ReportOption = None,
     quiet: given.QuietOption = False,
@@ -76,11 +83,14 @@ def mesh(
     points = inputs.scan.points[rows]
     options, is_given = given_options(context), boundary is not None
     run = run_report(inputs.scan.points, inputs.rows, result, clock, options, boundary_given=is_given)
+    attributes = carried(inputs, rows)
+    if out.suffix.lower() in HOLD_STRETCH:
+        attributes |= {"stretch": vertex_stretches(points, result.triangles, result.uv)}
     with writing_json(report, run):
-        notes = write_mesh(out, points, result.triangles, uv=result.uv, attributes=carried(inputs, rows))
+        notes = write_mesh(out, points, result.triangles, uv=result.uv, attributes=attributes)
     if not quiet:
         lines = certificate_lines(result.certificate) + boundary_lines(result, points, found=boundary is None)
-        lines += _rows_left(inputs, rows) + notes
+        lines += intersection_lines(run) + _rows_left(inputs, rows) + notes
         print("\n".join([*lines, f"{out}: {summary(result.certificate)}"]), file=sys.stderr)
 
 

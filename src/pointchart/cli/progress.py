@@ -8,15 +8,16 @@ from typing import Any
 
 from ..clock import StageClock
 
-# Usual share of the whole time that is over when a stage begins; repeated rounds begin the same stages again.
+# Usual share of the whole time that is over when a stage begins; each loop that is tried begins them again.
 OVER_BY = {
     "prepare": 0,
     "neighbours": 3,
     "boundary": 20,
     "map": 40,
-    "triangulate": 65,
-    "swap": 72,
-    "compare": 75,
+    "triangulate": 60,
+    "recover": 66,
+    "swap": 70,
+    "relocate": 72,
     "parameters": 78,
     "certify": 93,
 }

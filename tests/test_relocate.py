@@ -1,0 +1,153 @@
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from strategies import planar_discs, rotations, seeds
+from test_recover import same_loop
+from test_swaps import edges_of, f1
+
+from pointchart import shapes
+from pointchart.certify import certify
+from pointchart.links import link_stars
+from pointchart.mesh import boundary_loops, half_edges
+from pointchart.neighbors import nearest
+from pointchart.quality import dihedral_angles
+from pointchart.relocate import mesh_energy, relocate_points, suspect_points
+from pointchart.swaps import swap_to_delaunay
+from pointchart.vicinity import explore
+
+
+def put_astray(triangles, n_points, rng, n_moves):
+    """Take random inner points out of a mesh, and split a random triangle by each."""
+    for _ in range(n_moves):
+        edges = half_edges(triangles, n_points)
+        rim = edges.origins[edges.twins < 0]
+        is_deep = np.bincount(triangles.ravel(), minlength=n_points) > 3
+        is_deep[rim] = False
+        v = int(rng.choice(np.flatnonzero(is_deep)))
+        rest, fan = take_out(triangles, v)
+        mesh = np.concatenate([rest, fan])
+        if half_edges(mesh, n_points).n_overfull == 0:
+            triangles = split(mesh, int(rng.integers(len(rest))), v)
+    return triangles
+
+
+def take_out(triangles, v):
+    """Return the triangles without v, and a fan that closes the hole."""
+    at_v = (triangles == v).any(axis=1)
+    ring = _ring(triangles[at_v], v)
+    return triangles[~at_v], np.array([[ring[0], ring[k], ring[k + 1]] for k in range(1, len(ring) - 1)])
+
+
+def split(triangles, t, v):
+    a, b, c = triangles[t]
+    return np.concatenate([np.delete(triangles, t, axis=0), [[v, a, b], [v, b, c], [v, c, a]]])
+
+
+def _ring(star, v):
+    following = {}
+    for triangle in star.tolist():
+        k = triangle.index(v)
+        following[triangle[(k + 1) % 3]] = triangle[(k + 2) % 3]
+    ring = [next(iter(following))]
+    while len(ring) < len(following):
+        ring.append(following[ring[-1]])
+    return ring
+
+
+@settings(max_examples=15)
+@given(planar_discs(smallest=30, largest=80), seeds, rotations())
+def test_points_astray_in_a_planar_mesh_come_home_to_the_delaunay_triangulation(shape, seed, rotation):
+    points = shape.points @ rotation.T
+    true = swap_to_delaunay(points, shape.triangles).triangles
+    astray = put_astray(true, len(points), np.random.default_rng(seed), 3)
+    around = nearest(points, min(20, len(points) - 1))
+    mesh, moves = astray, 1
+    while moves:
+        found = relocate_points(points, mesh, around, np.arange(len(points)))
+        mesh, moves = swap_to_delaunay(points, found.triangles).triangles, found.n_moves
+    assert mesh_energy(points, mesh) <= mesh_energy(points, astray) * (1 + 1e-12)
+    assert f1(edges_of(mesh), edges_of(true)) > 0.95
+
+
+@settings(max_examples=15)
+@given(planar_discs(smallest=20, largest=80), rotations())
+def test_no_mesh_of_planar_points_has_less_energy_than_the_delaunay_triangulation(shape, rotation):
+    points = shape.points @ rotation.T
+    true = swap_to_delaunay(points, shape.triangles).triangles
+    moved = relocate_points(points, true, nearest(points, min(20, len(points) - 1)), np.arange(len(points)))
+    assert moved.n_moves == 0
+    assert edges_of(moved.triangles) == edges_of(true)
+
+
+def test_the_energy_is_the_formula_summed_over_triangles_and_inner_edges():
+    shape = shapes.relief(150, seed=2)
+    points, triangles = shape.points, shape.triangles
+    corner = points[triangles]
+    sides = np.stack([corner[:, k] - corner[:, k - 1] for k in range(3)])
+    area = 0.5 * np.linalg.norm(np.cross(sides[0], sides[1]), axis=1)
+    edges = half_edges(triangles, len(points))
+    inner = np.flatnonzero(edges.twins > np.arange(len(edges.twins)))
+    squares = ((points[edges.origins] - points[edges.targets]) ** 2).sum(axis=1)[inner]
+    beside = area[inner // 3] + area[edges.twins[inner] // 3]
+    turn = dihedral_angles(points, triangles, edges)
+    expected = (area * (sides**2).sum(axis=(0, 2))).sum() + 2 * (squares * beside * np.sin(turn / 2) ** 4).sum()
+    assert mesh_energy(points, triangles) == pytest.approx(expected, rel=1e-12)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_moves_lower_the_energy_end_and_keep_disc_boundary_and_points(seed):
+    shape = shapes.add_noise(shapes.hemisphere(500), sigma_in_spacings=0.3, seed=seed)
+    n = len(shape.points)
+    astray = put_astray(shape.triangles, len(shape.points), np.random.default_rng(seed), 30)
+    around, everyone = nearest(shape.points, 20), np.arange(n)
+    moved = relocate_points(shape.points, astray, around, everyone)
+    assert moved.n_moves > 10
+    assert mesh_energy(shape.points, moved.triangles) < mesh_energy(shape.points, astray)
+    assert certify(shape.points, moved.triangles).is_disc
+    (before,), (after,) = (boundary_loops(half_edges(t, n)) for t in (astray, moved.triangles))
+    assert same_loop(after, before)
+    last = moved
+    while last.n_moves:
+        last = relocate_points(shape.points, last.triangles, around, everyone)
+    assert mesh_energy(shape.points, last.triangles) <= mesh_energy(shape.points, moved.triangles)
+
+
+@settings(max_examples=10, deadline=None)
+@given(rotations(), seeds)
+def test_the_moves_do_not_depend_on_position_and_scale(rotation, seed):
+    shape = shapes.relief(200, seed=4)
+    astray = put_astray(shape.triangles, len(shape.points), np.random.default_rng(seed), 8)
+    around, everyone = nearest(shape.points, 20), np.arange(len(shape.points))
+    here = relocate_points(shape.points, astray, around, everyone)
+    there = relocate_points(2.0**9 * (shape.points @ rotation.T), astray, around, everyone)
+    assert edges_of(there.triangles) == edges_of(here.triangles)
+
+
+def test_points_on_the_other_of_two_close_sheets_go_back_where_edge_swaps_leave_them():
+    shape = shapes.fold(1.5, nx=41, ny=15)
+    points, mesh = shape.points, shape.triangles
+    for v in np.random.default_rng(0).choice(np.setdiff1d(np.arange(len(points)), shape.boundary), 10, replace=False):
+        rest, fan = take_out(mesh, v)
+        is_across = np.linalg.norm(shape.uv[rest].mean(axis=1) - shape.uv[v], axis=1) > 8
+        distance = np.linalg.norm(points[rest].mean(axis=1) - points[v], axis=1)
+        mesh = split(np.concatenate([rest, fan]), int(np.argmin(np.where(is_across, distance, np.inf))), v)
+    swapped = swap_to_delaunay(points, mesh).triangles
+    assert longest_in_plane(shape, swapped) > 8
+    suspects = suspect_points(link_stars(explore(points).star), swapped)
+    moved = relocate_points(points, swapped, nearest(points, 20), suspects)
+    assert moved.n_moves >= 10
+    assert longest_in_plane(shape, moved.triangles) < 1.5  # edges and diagonals of the grid's squares
+
+
+def longest_in_plane(shape, triangles):
+    a, b = np.array(sorted(edges_of(triangles))).T
+    return np.linalg.norm(shape.uv[a] - shape.uv[b], axis=1).max()
+
+
+def test_nothing_is_suspect_on_a_clean_scan_and_points_astray_are():
+    shape = shapes.hemisphere(600)
+    links = link_stars(explore(shape.points).star)
+    assert len(suspect_points(links, shape.triangles)) == 0
+    astray = put_astray(shape.triangles, len(shape.points), np.random.default_rng(3), 1)
+    (v,) = np.flatnonzero(np.bincount(astray.ravel()) == 3)[:1]
+    assert v in suspect_points(links, astray)

@@ -1,0 +1,52 @@
+import numpy as np
+import pytest
+
+from pointchart import shapes
+from pointchart.links import link_stars, trusted
+from pointchart.parameterize import parameterize
+from pointchart.pipeline import reconstruct
+from pointchart.reopen import COLLAPSED, parameterize_open
+from pointchart.triangulate import coinciding
+from pointchart.vicinity import explore
+
+
+def parts_of(shape):
+    links = link_stars(explore(shape.points).star)
+    turns = np.arange(len(shape.boundary)) * 2 * np.pi / len(shape.boundary)
+    return links.neighborhoods, trusted(links), np.column_stack([np.cos(turns), np.sin(turns)])
+
+
+def jittered(length, seed=1):
+    return shapes.add_noise(shapes.tube(length, n_around=16), sigma_in_spacings=0.1, seed=seed)
+
+
+def test_a_map_in_which_nothing_collapses_is_the_convex_combination_map_itself():
+    shape = shapes.hemisphere(400)
+    graph, weights, layout = parts_of(shape)
+    plain = parameterize(shape.points, shape.boundary, layout, graph, weights=weights)
+    opened, kept = parameterize_open(shape.points, shape.boundary, layout, graph, weights=weights)
+    assert np.array_equal(opened.uv, plain.uv)
+    assert kept is weights
+
+
+def test_a_tube_of_60_radii_collapses_and_is_opened():
+    shape = jittered(60)
+    graph, weights, layout = parts_of(shape)
+    plain = parameterize(shape.points, shape.boundary, layout, graph, weights=weights)
+    opened, kept = parameterize_open(shape.points, shape.boundary, layout, graph, weights=weights)
+    assert len(coinciding(plain.uv)) > 100
+    assert len(coinciding(opened.uv)) == 0
+    lengths = np.linalg.norm(opened.uv[graph.indices] - opened.uv[graph.rows], axis=1)
+    assert np.maximum.reduceat(lengths, graph.indptr[:-1]).min() > COLLAPSED
+    new = kept(shape.points, graph)
+    assert (new > 0).all()
+    assert np.bincount(graph.rows, new) == pytest.approx(1.0, rel=1e-12)
+
+
+@pytest.mark.parametrize("length", [1, 20, 40, 60])
+def test_a_noisy_tube_is_a_certified_disc(length):
+    shape = jittered(length)
+    certificate = reconstruct(shape.points, shape.boundary).certificate
+    assert certificate.is_disc
+    assert certificate.is_one_to_one
+    assert certificate.longest_edge_over_spacing < 2.5
