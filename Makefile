@@ -31,9 +31,11 @@ format: .venv/dev  ## format and sort imports
 	$(BIN)/ruff format .
 	$(BIN)/ruff check --fix .
 
-bench: .venv/dev  ## reproduce the paper's tables, measure the boundaries found, time the stages
+bench: .venv/dev  ## reproduce the paper's tables, measure boundaries, hard scans and creases, time the stages
 	$(BIN)/python benchmarks/paper.py
 	$(BIN)/python benchmarks/boundaries.py
+	$(BIN)/python benchmarks/hard_scans.py
+	$(BIN)/python benchmarks/creases.py
 	$(BIN)/python benchmarks/stages.py
 
 docs: .venv/dev  ## draw the pictures of the docs

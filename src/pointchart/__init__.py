@@ -54,6 +54,9 @@ from .quality import (
     stretches,
     vertex_stretches,
 )
+from .recover import Recovered, recover_links
+from .relocate import Relocated, mesh_energy, relocate_points, suspect_points
+from .reopen import parameterize_open
 from .solve import Solution, bicgstab, cholesky, conjugate_gradient, direct, multigrid, solve_fixed
 from .stars import delaunay_star, nearest_star, normals, smooth
 from .survey import Survey, survey_scan
@@ -76,6 +79,8 @@ __all__ = [
     "Parameterization",
     "PointchartError",
     "Reconstruction",
+    "Recovered",
+    "Relocated",
     "Scan",
     "Solution",
     "SolveError",
@@ -110,6 +115,7 @@ __all__ = [
     "linf_stretch",
     "link_stars",
     "mean_value",
+    "mesh_energy",
     "minimize_dirichlet",
     "multigrid",
     "nearest",
@@ -121,6 +127,7 @@ __all__ = [
     "one_rings",
     "order_by_halves",
     "parameterize",
+    "parameterize_open",
     "parameterize_scan",
     "prepare",
     "quarter_places",
@@ -129,7 +136,9 @@ __all__ = [
     "read_scan",
     "reciprocal_distance",
     "reconstruct",
+    "recover_links",
     "refuse_second_boundary",
+    "relocate_points",
     "self_intersections",
     "shape_preserving",
     "sharpest_places",
@@ -138,6 +147,7 @@ __all__ = [
     "spacing",
     "stretches",
     "survey_scan",
+    "suspect_points",
     "swap_to_delaunay",
     "swap_to_least_curvature",
     "swap_to_least_gaussian_curvature",

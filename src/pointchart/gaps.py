@@ -17,7 +17,7 @@ LEAST_SPACINGS = 12.0  # under this, a bridge is a matter of sampling
 SURE = 0.75  # share of its length along boundary points that a loop needs to be a second boundary without a bridge
 TORN_SPACINGS = 24.0  # rim of a bridge on a clear surface without a gap, from which on the surface is no disc
 TORN_IN_ALL = 60.0  # rims together of all clear bridges from LEAST_SPACINGS on
-MESSY_SPACINGS = 60.0  # the same where stars dispute their links: close sheets are meshed wrongly there, on a disc too
+MESSY_SPACINGS = 36.0  # the same where stars dispute their links: close sheets are meshed wrongly there, on a disc too
 MESSY_SHARE = 0.4  # or TORN_SPACINGS, with this share of the boundary's length
 CLEAR = 0.05  # disputed links a point up to which a surface is clear
 

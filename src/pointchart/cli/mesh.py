@@ -51,7 +51,9 @@ def mesh(
     domain: given.DomainOption = Domain.circle,
     corners: given.CornersOption = None,
     spacing: given.SpacingOption = Spacing.chord,
-    swap: Annotated[Swap, typer.Option("--swap", help="Edge swaps in space after the triangulation.")] = Swap.delaunay,
+    swap: Annotated[
+        Swap, typer.Option("--swap", help="Edge swaps in space: Delaunay, or on from there to edges along creases.")
+    ] = Swap.delaunay,
     uv: Annotated[
         Chart,
         typer.Option(
