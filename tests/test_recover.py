@@ -103,3 +103,18 @@ def test_every_edge_on_folded_sheets_three_spacings_apart_joins_neighbours_of_th
     a, b = np.array(sorted(edges_of(result.triangles))).T
     assert result.certificate.is_one_to_one
     assert np.linalg.norm(shape.uv[a] - shape.uv[b], axis=1).max() < 1.5
+
+
+@pytest.mark.parametrize("name", ["club", "hand", "maze"])
+def test_the_mesh_of_a_real_scan_has_the_energy_of_the_true_surface(name, scan):
+    """On the regular grid of the maze all other diagonals are as good, so the energy tells and not the edges."""
+    points, triangles, loop = scan(name)
+    result = reconstruct(points, loop)
+    assert result.certificate.is_one_to_one
+    assert mesh_energy(points, result.triangles) == pytest.approx(mesh_energy(points, triangles), rel=0.01)
+
+
+@pytest.mark.parametrize(("name", "least"), [("club", 0.985), ("hand", 0.998), ("nefertiti_uneven", 0.985)])
+def test_the_edges_of_a_real_scan_are_those_of_the_true_surface(name, least, scan):
+    points, triangles, loop = scan(name)
+    assert f1(edges_of(reconstruct(points, loop).triangles), edges_of(triangles)) >= least
