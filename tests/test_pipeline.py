@@ -32,13 +32,15 @@ from pointchart import (
     sharpest_places,
     survey_scan,
     swap_to_delaunay,
+    swap_to_least_curvature,
+    swap_to_least_turn,
     uniform,
     uniform_steps,
     uv_of_points,
     uv_on_mesh,
 )
 from pointchart.boundary import chord_length_on_circle, places_of
-from pointchart.mesh import half_edges
+from pointchart.mesh import boundary_loops, half_edges
 from pointchart.pipeline import TRIALS
 
 SIMULATED = {
@@ -561,3 +563,12 @@ def test_a_part_so_long_that_its_map_collapses_is_refused():
     finger = shapes.tube(150)
     with pytest.raises(SolveError, match=r"the surface is no disc: .* so long that its map collapses"):
         reconstruct(finger.points, finger.boundary)
+
+
+@pytest.mark.parametrize("swap", [swap_to_least_turn, swap_to_least_curvature])
+def test_gaps_left_open_stay_open_under_other_swaps(swap):
+    scan = shapes.pierce(shapes.relief(3000, seed=2), n_gaps=1, radius_in_spacings=8, seed=2)
+    meshes = [reconstruct(scan.points, gaps=leave_gaps_open, swap=rule) for rule in (swap_to_delaunay, swap)]
+    assert [mesh.certificate.holes for mesh in meshes] == [1, 1]
+    rims = [sorted(len(loop) for loop in boundary_loops(half_edges(m.triangles, len(scan.points)))) for m in meshes]
+    assert rims[0] == rims[1]

@@ -7,9 +7,10 @@ from test_swaps import edges_of, f1
 
 from pointchart import shapes
 from pointchart.certify import certify
+from pointchart.errors import InputError
 from pointchart.links import link_stars
 from pointchart.mesh import boundary_loops, half_edges
-from pointchart.neighbors import nearest
+from pointchart.neighbors import Neighborhoods, nearest
 from pointchart.quality import dihedral_angles
 from pointchart.relocate import mesh_energy, relocate_points, suspect_points
 from pointchart.swaps import swap_to_delaunay
@@ -62,9 +63,12 @@ def test_points_astray_in_a_planar_mesh_come_home_to_the_delaunay_triangulation(
     astray = put_astray(true, len(points), np.random.default_rng(seed), 3)
     around = nearest(points, min(20, len(points) - 1))
     mesh, moves = astray, 1
-    while moves:
+    for _ in range(20):
+        if moves == 0:
+            break
         found = relocate_points(points, mesh, around, np.arange(len(points)))
         mesh, moves = swap_to_delaunay(points, found.triangles).triangles, found.n_moves
+    assert moves == 0
     assert mesh_energy(points, mesh) <= mesh_energy(points, astray) * (1 + 1e-12)
     assert f1(edges_of(mesh), edges_of(true)) > 0.95
 
@@ -107,14 +111,17 @@ def test_moves_lower_the_energy_end_and_keep_disc_boundary_and_points(seed):
     (before,), (after,) = (boundary_loops(half_edges(t, n)) for t in (astray, moved.triangles))
     assert same_loop(after, before)
     last = moved
-    while last.n_moves:
+    for _ in range(20):
+        if last.n_moves == 0:
+            break
         last = relocate_points(shape.points, last.triangles, around, everyone)
+    assert last.n_moves == 0
     assert mesh_energy(shape.points, last.triangles) <= mesh_energy(shape.points, moved.triangles)
 
 
 @settings(max_examples=10, deadline=None)
 @given(rotations(), seeds)
-def test_the_moves_do_not_depend_on_position_and_scale(rotation, seed):
+def test_the_moves_do_not_depend_on_turn_and_scale(rotation, seed):
     shape = shapes.relief(200, seed=4)
     astray = put_astray(shape.triangles, len(shape.points), np.random.default_rng(seed), 8)
     around, everyone = nearest(shape.points, 20), np.arange(len(shape.points))
@@ -151,3 +158,18 @@ def test_nothing_is_suspect_on_a_clean_scan_and_points_astray_are():
     astray = put_astray(shape.triangles, len(shape.points), np.random.default_rng(3), 1)
     (v,) = np.flatnonzero(np.bincount(astray.ravel()) == 3)[:1]
     assert v in suspect_points(links, astray)
+
+
+def test_without_near_points_nothing_moves():
+    shape = shapes.disc(100, seed=1)
+    nowhere = Neighborhoods(np.zeros(101, np.int64), np.zeros(0, np.int64))
+    stayed = relocate_points(shape.points, shape.triangles, nowhere, np.arange(100))
+    assert stayed.n_moves == 0
+    assert np.array_equal(stayed.triangles, shape.triangles)
+
+
+def test_a_mesh_that_leaves_a_point_out_is_refused():
+    shape = shapes.disc(100, seed=1)
+    more = np.vstack([shape.points, [0.0, 0, 1]])
+    with pytest.raises(InputError, match="1 points are in no triangle"):
+        relocate_points(more, shape.triangles, nearest(more, 10), np.arange(100))

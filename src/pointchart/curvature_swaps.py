@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 
 from ._check import check_points, check_triangles
 from ._kernels.curvature_swaps import GAUSSIAN, MEAN, NORMALS, PRINCIPAL, curvature_swaps, sum_curvature
+from .errors import InputError
 from .mesh import half_edges
 from .neighbors import spacing
 from .swaps import Swapped
@@ -152,6 +153,8 @@ def swap_to_least_curvature(points: ArrayLike, triangles: Triangles) -> Swapped:
 def _descend(points: ArrayLike, triangles: Triangles, cost: int) -> Swapped:
     cloud = check_points(points)
     edges = half_edges(check_triangles(triangles, len(cloud)), len(cloud))
+    if edges.n_overfull:
+        raise InputError(f"{edges.n_overfull} half-edges share their direction, so the mesh is no manifold; mend it")
     is_rim = np.zeros(len(cloud), np.bool_)
     is_rim[edges.origins[edges.twins < 0]] = True
     unit = float(spacing(cloud, k=1).mean()) if cost in (MEAN, PRINCIPAL) else 1.0

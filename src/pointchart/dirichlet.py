@@ -89,6 +89,9 @@ def minimize_dirichlet(
     cloud = check_points(points)
     faces = check_triangles(triangles, len(cloud))
     rim = check_loop(loop, len(cloud))
+    unused = np.setdiff1d(np.arange(len(cloud)), faces)
+    if len(unused):
+        raise InputError("points {unused} are in no triangle, so nothing places them; take them out", unused=unused)
     surface = _Surface.of(cloud, faces)
     uv = surface.fitted(_checked_start(start, len(cloud), faces, rim))
     system = _System.of(faces, surface)

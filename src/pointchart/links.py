@@ -13,6 +13,7 @@ from .neighbors import Neighborhoods
 from .typing import Floats, Indices, Mask, Points, Triangles, Weights
 from .weights import WeightScheme, normalize, reciprocal_distance
 
+FULL_TRUST = 1.0
 LONE_TRUST = 0.01  # a link that only one star sees: never 0, since the graph must stay connected
 
 
@@ -59,7 +60,7 @@ def link_stars(star: Neighborhoods, *, also: Neighborhoods | None = None) -> Lin
     >>> links.neighborhoods.sizes, links.trust.min()
     (array([4, 3, 3, 3, 3]), np.float64(1.0))
     """
-    trust = np.where(_agree(star), 1.0, LONE_TRUST)
+    trust = np.where(_agree(star), FULL_TRUST, LONE_TRUST)
     graph = sp.csr_array((trust, star.indices, star.indptr), shape=(star.n_points, star.n_points))
     if also is not None:
         lone = np.full(len(also.indices), LONE_TRUST)

@@ -59,6 +59,15 @@ def start_draft(points: Points, triangles: Triangles, *, journal: int) -> Draft:
     journal : int
         Triangles that one edit may touch, each as often as it does.
 
+    Returns
+    -------
+    Draft
+
+    Raises
+    ------
+    InputError
+        If the mesh is no manifold, or a point is in no triangle.
+
     Examples
     --------
     >>> import numpy as np
@@ -69,6 +78,11 @@ def start_draft(points: Points, triangles: Triangles, *, journal: int) -> Draft:
     edges = half_edges(triangles, len(points))
     leaving = np.full(len(points), -1, np.int64)
     leaving[edges.origins] = np.arange(len(edges.origins))
+    if edges.n_overfull or (leaving < 0).any():
+        raise InputError(
+            f"the mesh is no manifold on its points: {edges.n_overfull} half-edges share their direction, and "
+            f"{np.count_nonzero(leaving < 0)} points are in no triangle; take these points out and mend the edges"
+        )
     return Draft(points, edges.origins, edges.twins, leaving, np.empty((journal, 7), np.int64))
 
 

@@ -20,7 +20,7 @@ from .refine import Meshed, SwapRule, mesh_by_links, mesh_once
 from .solve import Solver, default_solver
 from .stars import nearest_star
 from .survey import Survey, survey_scan
-from .swaps import keep_edges, swap_off_sides, swap_to_delaunay
+from .swaps import Swapped, keep_edges, swap_off_sides, swap_to_delaunay
 from .typing import UV, Indices, Loop, Points, Triangles
 from .vicinity import NEAREST
 from .weights import WeightScheme, mean_value
@@ -114,7 +114,7 @@ def reconstruct(
         ``connect(points) -> Neighborhoods``, as for the paper's methods, to be used with `weights`; it is called with
         the distinct points in spatial order, in the unit of the scan. If not given, Delaunay stars are linked by
         their agreement, and the links mend the mesh.
-    weights : callable
+    weights : callable, optional
         ``weights(points, neighborhoods) -> (nnz,)`` for the neighbourhoods of `connect`, or of the Delaunay stars; mean
         value weights, if only `connect` is given.
     swap : callable
@@ -163,7 +163,7 @@ def reconstruct(
     boundary_uv = layout(survey.scan, cloud.rows[rim])
     with points_called(cloud.rows):
         with clock("swap"):
-            meshed = _swapped_again(cloud.points, stand.meshed, swap)
+            meshed = _swapped_again(cloud.points, stand, swap)
         with clock("parameters"):
             meshed = replace(meshed, swapped=swap_off_sides(meshed.swapped, rim, boundary_uv))
             mapped = chart(cloud.scale * cloud.points, rim, boundary_uv, meshed, solver)
@@ -289,10 +289,17 @@ def _mesh(
     return mesh_once(points, rim, circle, neighborhoods, weights=scheme, swap=first, solver=solver, clock=clock)
 
 
-def _swapped_again(points: Points, meshed: Meshed, swap: SwapRule) -> Meshed:
-    """Swap edges of a mesh that stands: other costs may make long edges, which are no bridges then."""
-    last = swap(points, meshed.swapped.triangles)
-    return replace(meshed, swapped=replace(last, n_swaps=meshed.swapped.n_swaps + last.n_swaps))
+def _swapped_again(points: Points, stand: _Stand, swap: SwapRule) -> Meshed:
+    """Swap edges of a mesh that stands, but not in gaps that will be open; long edges are no bridges any more."""
+    first = stand.meshed.swapped
+    is_kept = np.ones(len(first.triangles), bool)
+    for patch in stand.rims.patches(stand.opened, first.triangles):
+        is_kept[patch] = False
+    last = swap(points, first.triangles[is_kept])
+    triangles = first.triangles.copy()
+    triangles[is_kept] = last.triangles
+    both = Swapped(triangles, first.n_swaps + last.n_swaps, first.is_settled and last.is_settled)
+    return replace(stand.meshed, swapped=both)
 
 
 def _check_proof(proof: Certificate, chart: ChartRule) -> None:

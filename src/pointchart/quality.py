@@ -104,7 +104,7 @@ def stretches(points: Points, triangles: Triangles, uv: UV) -> tuple[Floats, Flo
     ds = scale * (f2[:, 1:] * e1 - f1[:, 1:] * e2) / safe[:, None]
     dt = scale * (f1[:, :1] * e2 - f2[:, :1] * e1) / safe[:, None]
     a, b, c = (np.einsum("ij,ij->i", x, y) for x, y in ((ds, ds), (ds, dt), (dt, dt)))
-    root = np.sqrt((a - c) ** 2 + 4.0 * b * b)
+    root = np.hypot(a - c, 2.0 * b)
     return np.sqrt(0.5 * (a + c + root)), np.sqrt(np.maximum(0.5 * (a + c - root), 0.0))
 
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from ._kernels.recover import JOURNAL
 from ._kernels.recover import recover as recover_kernel
-from .links import Links
+from .links import FULL_TRUST, Links
 from .mesh import start_draft
 from .typing import UV, Points, Triangles
 
@@ -19,7 +19,7 @@ class Recovered:
     ----------
     triangles : (m, 3) int64
     n_recovered, n_missed : int
-        Links that became edges, and that did not since other edges are better there.
+        Links that became edges, and that did not: other edges are better there, or no swaps lead to them.
     """
 
     triangles: Triangles
@@ -28,7 +28,7 @@ class Recovered:
 
 
 def recover_links(points: Points, uv: UV, triangles: Triangles, links: Links) -> Recovered:
-    """Make the most trusted links edges of the triangulation, where that lowers the energy of the mesh in space.
+    """Make links of full trust edges of the triangulation, where that lowers the energy of the mesh in space.
 
     Where the map is narrow, the Delaunay triangulation of the parameters joins points that are far apart on the
     surface, and edge swaps in space do not find back. Links on which neighbouring stars agree do: each is made an edge
@@ -64,7 +64,7 @@ def recover_links(points: Points, uv: UV, triangles: Triangles, links: Links) ->
            [2, 0, 3]])
     """
     graph = links.neighborhoods
-    is_meant = (graph.rows < graph.indices) & (links.trust == links.trust.max())
+    is_meant = (graph.rows < graph.indices) & (links.trust == FULL_TRUST)
     one, other = graph.rows[is_meant], graph.indices[is_meant]
     shortest_first = np.argsort(np.linalg.norm(points[one] - points[other], axis=1), kind="stable")
     draft = start_draft(points, triangles, journal=JOURNAL)

@@ -42,8 +42,8 @@ class Meshed:
     weights: WeightScheme
     first_map: Parameterization
     swapped: Swapped
-    n_recovered: int = 0
-    n_relocated: int = 0
+    n_recovered: int
+    n_relocated: int
 
 
 def mesh_once(
@@ -63,7 +63,7 @@ def mesh_once(
     with clock("triangulate"):
         triangles = triangulate(separate(first_map.uv, first_map.loop), first_map.loop)
     with clock("swap"):
-        return Meshed(neighborhoods, weights, first_map, swap(points, triangles))
+        return Meshed(neighborhoods, weights, first_map, swap(points, triangles), 0, 0)
 
 
 def mesh_by_links(
@@ -86,9 +86,10 @@ def mesh_by_links(
     with clock("map"):
         first_map, weights = parameterize_open(points, loop, layout, graph, weights=trusted(links), solver=solver)
     with clock("triangulate"):
-        triangles = triangulate(separate(first_map.uv, loop), loop)
+        uv = separate(first_map.uv, loop)
+        triangles = triangulate(uv, loop)
     with clock("recover"):
-        recovered = recover_links(points, first_map.uv, triangles, links)
+        recovered = recover_links(points, uv, triangles, links)
     with clock("swap"):
         swapped = swap_to_delaunay(points, recovered.triangles)
     n_swaps, n_moves = swapped.n_swaps, 0

@@ -37,7 +37,7 @@ def relocate_points(points: Points, triangles: Triangles, around: Neighborhoods,
     Edge swaps cannot carry a point past others, so one that the map put on the wrong side of a crease, or on the other
     of two close sheets, stays there. A move takes it out by swaps, closes the hole, splits the triangle near the point
     where it costs least, and swaps edges around both places. What a move touches is tried next. The energy (see
-    `mesh_energy`) falls with every move, so they end.
+    `mesh_energy`) falls with every move; at most 30 moves a point of the mesh are tried.
 
     Parameters
     ----------
@@ -64,6 +64,7 @@ def relocate_points(points: Points, triangles: Triangles, around: Neighborhoods,
     """
     draft = start_draft(points, triangles, journal=JOURNAL)
     least = LEAST_GAIN * total_energy(draft) / len(triangles)
+    suspects = np.unique(suspects)
     queue, waiting = np.zeros(len(points), np.int64), np.zeros(len(points), np.bool_)
     queue[: len(suspects)], waiting[suspects] = suspects, True
     most = TRIES * len(points)

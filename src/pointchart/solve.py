@@ -100,10 +100,11 @@ def solve_fixed(matrix: sp.csr_array, fixed: Indices, values: Floats, *, solver:
     right = rows @ full
     left = sp.csr_array(sp.eye_array(len(free), format="csr") - rows[:, free])
     chosen = solver or default_solver(len(free))
-    with points_called(free):
+    # Numbers that run over are found out by the residual.
+    with points_called(free), np.errstate(over="ignore", invalid="ignore"):
         solution, iterations = chosen(left, right)
-    size = np.linalg.norm(right, axis=0)
-    residual = float(np.max(np.linalg.norm(right - left @ solution, axis=0) / np.where(size > 0.0, size, 1.0)))
+        size = np.linalg.norm(right, axis=0)
+        residual = float(np.max(np.linalg.norm(right - left @ solution, axis=0) / np.where(size > 0.0, size, 1.0)))
     if not np.isfinite(residual):
         raise SolveError(f"{_name(chosen)} gave no finite solution of {len(free)} unknowns; try another solver")
     if residual > WORST_RESIDUAL:

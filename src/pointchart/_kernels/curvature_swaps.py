@@ -115,7 +115,7 @@ def cost_at_point(cost, is_rim, defect, bend, area):
     if cost == GAUSSIAN:
         return abs(k)
     if cost == PRINCIPAL:
-        return 2.0 * bend if k >= 0.0 else 2.0 * math.sqrt(bend * bend - k * area)
+        return 2.0 * bend if k >= 0.0 else 2.0 * math.sqrt(bend * bend - k * max(area, 0.0))
     return bend
 
 
@@ -169,7 +169,7 @@ def curvature_swaps(points, corners, twin, cost, unit, is_rim, sums, touched):
             if max(touched[a], touched[b], touched[c], touched[d]) < sweep - 1:
                 continue
             gain = gain_of_swap(points, corners, twin, cost, unit, is_rim, h, sums, change)
-            if gain <= LEAST_GAIN * unit or are_joined(corners, twin, preceding(h), d):
+            if not gain > LEAST_GAIN * unit or are_joined(corners, twin, preceding(h), d):
                 continue
             swap(corners, twin, h)
             total += 1

@@ -32,15 +32,16 @@ def recover(draft, uv, one, other):
 @njit(cache=True, nogil=True)
 def recover_one(draft, uv, a, b):
     """Swap edges that cross ab until ab is one; return the swaps, 0 if it was one before, -1 if it stays none."""
-    n, change = 0, 0.0
+    n, change, made = 0, 0.0, (-1, -1)
     while n + 2 <= JOURNAL:
         h = edge_towards(draft, uv, a, b)
         if h == -1 and change <= 0.0:
             return n // 2
         if h >= 0:
-            h = swappable(draft, uv, a, b, h)
+            h = swappable(draft, uv, a, b, h, made)
         if h < 0:
             break
+        made = draft.corners[preceding(h)], draft.corners[preceding(draft.twin[h])]
         change -= swap_gain(draft, h)
         n = swap_noted(draft, n, h)
     undo(draft, n)
@@ -64,8 +65,13 @@ def edge_towards(draft, uv, a, b):
 
 
 @njit(cache=True, nogil=True)
-def swappable(draft, uv, a, b, h):
-    """Walk along ab from half-edge h that it crosses; return the first crossed one that can be swapped, or -1."""
+def swappable(draft, uv, a, b, h, made):
+    """Walk along ab from half-edge h that it crosses; return a crossed one that can be swapped, or -1.
+
+    One whose replacement does not cross ab comes first; failing that, the first but the edge `made` last, which would
+    go back and forth.
+    """
+    fallback = -1
     for _ in range(MOST_CROSSED):
         t = draft.twin[h]
         if t < 0:
@@ -74,10 +80,13 @@ def swappable(draft, uv, a, b, h):
         c, d = draft.corners[preceding(h)], draft.corners[preceding(t)]
         is_convex = side(uv, c, p, d) > 0.0 and side(uv, d, q, c) > 0.0
         if is_convex and not are_joined(draft.corners, draft.twin, preceding(h), d):
-            return h
+            if c == a or d == b or (side(uv, a, b, c) >= 0.0) == (side(uv, a, b, d) >= 0.0):
+                return h
+            if fallback < 0 and made not in ((p, q), (q, p)):
+                fallback = h
         if d == b:
             break
         # Half-edge t runs from q to p; the line goes on between d and the one of them on its other side.
         is_left = side(uv, a, b, d) >= 0.0
         h = following(t) if is_left == (side(uv, a, b, p) < 0.0) else preceding(t)
-    return -1
+    return fallback

@@ -52,6 +52,9 @@ def relocate_one(draft, v, near, stack, least):
     one, two = next_around(draft, h), next_around(draft, next_around(draft, h))
     n, taken = take_out(draft, n, v, h, one, two)
     place, added = cheapest_place(draft, v, near)
+    if place < 0:
+        undo(draft, n)
+        return 0
     n = put_in(draft, n, v, place, one // 3, two // 3)
     size = 0
     for t in (h // 3, place, one // 3, two // 3):
@@ -59,7 +62,7 @@ def relocate_one(draft, v, near, stack, least):
             stack[size] = k
             size += 1
     n, smoothed = descend(draft, n, stack, size, least)
-    if change + taken + added + smoothed >= -least:
+    if not change + taken + added + smoothed < -least:
         undo(draft, n)
         return 0
     return n

@@ -106,7 +106,7 @@ def find_boundary(points: ArrayLike, *, vicinity: Vicinity | None = None) -> Fou
         longest = max((c.length for c in found if c.share >= LEAST_SHARE), default=0.0)
         raise InputError(
             f"no boundary was found: no loop of boundary points is {SHORTEST:.0f} spacings long (the longest has "
-            f"{longest / scale:.0f}), so these {len(cloud)} points are too few or lie on a closed surface; give the "
+            f"{longest / scale:.1f}), so these {len(cloud)} points are too few or lie on a closed surface; give the "
             "boundary, or cut the scan open"
         )
     good.sort(key=lambda c: -c.share * c.length)
