@@ -101,11 +101,13 @@ def stretches(points: Points, triangles: Triangles, uv: UV) -> tuple[Floats, Flo
     area = np.linalg.norm(area_vectors(points, triangles), axis=1).sum()
     scale = np.sqrt(0.5 * np.abs(determinant).sum() / area)
     safe = np.where(determinant != 0.0, determinant, np.nan)
-    ds = scale * (f2[:, 1:] * e1 - f1[:, 1:] * e2) / safe[:, None]
-    dt = scale * (f1[:, :1] * e2 - f2[:, :1] * e1) / safe[:, None]
-    a, b, c = (np.einsum("ij,ij->i", x, y) for x, y in ((ds, ds), (ds, dt), (dt, dt)))
-    root = np.hypot(a - c, 2.0 * b)
-    return np.sqrt(0.5 * (a + c + root)), np.sqrt(np.maximum(0.5 * (a + c - root), 0.0))
+    # Stretches beyond what doubles hold count as those of flat triangles.
+    with np.errstate(over="ignore", invalid="ignore"):
+        ds = scale * (f2[:, 1:] * e1 - f1[:, 1:] * e2) / safe[:, None]
+        dt = scale * (f1[:, :1] * e2 - f2[:, :1] * e1) / safe[:, None]
+        a, b, c = (np.einsum("ij,ij->i", x, y) for x, y in ((ds, ds), (ds, dt), (dt, dt)))
+        root = np.hypot(a - c, 2.0 * b)
+        return np.sqrt(0.5 * (a + c + root)), np.sqrt(np.maximum(0.5 * (a + c - root), 0.0))
 
 
 def vertex_stretches(points: Points, triangles: Triangles, uv: UV) -> Floats:
