@@ -21,6 +21,7 @@ from pointchart import (
     reconstruct,
     shapes,
     stretches,
+    swap_to_least_curvature,
     uv_free_boundary,
     uv_low_stretch,
     uv_of_points,
@@ -342,3 +343,10 @@ def test_the_area_of_free_parameters_is_that_of_the_surface_in_the_unit_of_the_s
     edges = [result.uv[result.triangles[:, k]] - result.uv[result.triangles[:, 0]] for k in (1, 2)]
     area = 0.5 * (edges[0][:, 0] * edges[1][:, 1] - edges[0][:, 1] * edges[1][:, 0]).sum()
     assert area == pytest.approx(surface_area(1000.0 * cap.points, result.triangles))
+
+
+def test_where_the_weights_get_out_of_hand_the_maps_before_stand():
+    """Sheets of 1.5 spacings get mixed up, and triangles shrink beyond what doubles hold."""
+    sheet = shapes.fold(1.5)
+    result = reconstruct(sheet.points, sheet.boundary, chart=uv_low_stretch, swap=swap_to_least_curvature)
+    assert result.certificate.is_one_to_one

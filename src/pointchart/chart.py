@@ -7,7 +7,7 @@ from typing import TypeAlias, cast
 
 from ._exact import orientation_signs
 from .dirichlet import minimize_dirichlet
-from .errors import SolveError
+from .errors import PointchartError
 from .mesh import one_rings
 from .parameterize import Parameterization, parameterize, solve_map
 from .quality import l2_stretch, vertex_stretches
@@ -52,16 +52,16 @@ def uv_on_mesh(points: Points, loop: Loop, boundary_uv: UV, meshed: Meshed, solv
     """
     triangles = meshed.swapped.triangles
     mapped: Parameterization | None = None
-    failure: SolveError | None = None
+    failure: PointchartError | None = None
     for scheme in (mean_value, uniform):
         try:
             for mapped in islice(relaxations(points, loop, boundary_uv, triangles, scheme, solver), SOLVES):
                 if is_positive(mapped.uv, triangles):
                     return mapped
-        except SolveError as reason:
+        except PointchartError as reason:
             failure = failure or reason
     if mapped is None:
-        raise cast(SolveError, failure)
+        raise cast(PointchartError, failure)
     return mapped
 
 
@@ -95,7 +95,7 @@ def uv_low_stretch(points: Points, loop: Loop, boundary_uv: UV, meshed: Meshed, 
     start = best
     for scheme in (mean_value, uniform):
         # Where weights go out of hand, the maps before stand.
-        with suppress(SolveError):
+        with suppress(PointchartError):
             for mapped in islice(relaxations(points, loop, boundary_uv, triangles, scheme, solver), RELAXATIONS + 1):
                 stretch = l2_stretch(points, triangles, mapped.uv)
                 if stretch < least and is_positive(mapped.uv, triangles):

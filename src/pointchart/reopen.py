@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from .errors import SolveError
+from .errors import PointchartError
 from .neighbors import Neighborhoods
 from .parameterize import Parameterization, parameterize, solve_map
 from .solve import Solver
@@ -70,7 +70,7 @@ def parameterize_open(
         current = normalize(current / stretch[neighborhoods.indices] ** POWER, neighborhoods)
         try:
             mapped = solve_map(points, loop, layout, neighborhoods, weights=fixed(current), solver=solver)
-        except SolveError:
+        except PointchartError:  # the weights got out of hand: the maps before stand
             break
         shrunk = _link_lengths(mapped.uv, neighborhoods)
         collapsed = np.count_nonzero(shrunk < COLLAPSED)
