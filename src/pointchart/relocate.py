@@ -107,7 +107,7 @@ def mesh_energy(points: Points, triangles: Triangles) -> float:
     Examples
     --------
     >>> right = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
-    >>> mesh_energy(right, np.array([[0, 1, 2]]))  # 1/2 (1 + 1 + 2)
+    >>> mesh_energy(right[:3], np.array([[0, 1, 2]]))  # 1/2 (1 + 1 + 2)
     2.0
     >>> mesh_energy(right, np.array([[0, 1, 2], [1, 0, 3]])).__round__(12)  # bent by 90 degrees along an edge of 1
     4.5
