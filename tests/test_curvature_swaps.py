@@ -5,6 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from strategies import planar_discs, rotations, seeds
+from test_swaps import edges_of
 
 from pointchart import shapes
 from pointchart._kernels import curvature_swaps as kernels
@@ -20,10 +21,6 @@ from pointchart.mesh import boundary_loops, half_edges
 from pointchart.neighbors import spacing
 from pointchart.pipeline import reconstruct
 from pointchart.swaps import swap_to_delaunay
-
-
-def edges_of(triangles):
-    return set(map(tuple, np.sort(triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1).tolist()))
 
 
 def bends(points, triangles):

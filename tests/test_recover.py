@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from strategies import planar_discs, rotations, seeds
-from test_swaps import edges_of, f1, flip_at_random
+from test_swaps import edges_of, f1, mixed_in_plane
 
 from pointchart import shapes
 from pointchart._exact import orientation_signs
@@ -32,10 +32,7 @@ def same_loop(loop, other):
 @settings(max_examples=15)
 @given(planar_discs(smallest=20, largest=60), seeds, rotations())
 def test_the_edges_of_a_planar_delaunay_triangulation_are_recovered_from_any_other(shape, seed, rotation):
-    def is_plane(flipped):
-        return (orientation_signs(shape.uv, flipped) == 1).all()
-
-    mixed = flip_at_random(shape.triangles, is_plane, np.random.default_rng(seed), 100)
+    mixed = mixed_in_plane(shape, seed)
     true = swap_to_delaunay(shape.points, shape.triangles).triangles
     points = shape.points @ rotation.T
     recovered = recover_links(points, shape.uv, mixed, links_of(true, len(points)))
