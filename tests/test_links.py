@@ -4,10 +4,12 @@ from hypothesis import given, settings
 from strategies import clouds
 
 from pointchart.errors import InputError
-from pointchart.links import LONE_TRUST, disputed_links, is_near, link_stars
+from pointchart.links import LONE_TRUST, disputed_links, is_near, link_stars, tie_down
 from pointchart.mesh import one_rings
 from pointchart.neighbors import Neighborhoods, nearest
-from pointchart.shapes import add_noise, disc, fold, grid, relief
+from pointchart.parameterize import cut_points
+from pointchart.pipeline import reconstruct
+from pointchart.shapes import add_noise, disc, fold, grid, hemisphere, relief
 from pointchart.stars import delaunay_star
 
 
@@ -153,3 +155,30 @@ def test_links_that_are_given_besides_are_added_both_ways_and_trusted_least():
     added |= {(j, i) for i, j in added}
     assert set(after) == set(before) | added
     assert {after[pair] for pair in added - set(before)} == {LONE_TRUST}
+
+
+def with_clump(apart):
+    """Return a dome and a clump of 60 points over its top, some spacings apart."""
+    dome = hemisphere(2000)
+    top = dome.points[np.argmax(dome.points[:, 2])]
+    scatter = np.random.default_rng(0).normal(size=(60, 3)) * [2.3, 2.3, 0.2] * dome.spacing
+    return np.concatenate([dome.points, top * (1.0 + apart * dome.spacing) + scatter]), dome.boundary
+
+
+@pytest.mark.parametrize("apart", [3.0, 4.5])
+def test_a_clump_over_the_surface_is_tied_down_and_nothing_else_changes(apart):
+    points, loop = with_clump(apart)
+    links = links_of(points)
+    before, tied = pairs_of(links), tie_down(points, links, loop)
+    after = pairs_of(tied)
+    assert (cut_points(tied.neighborhoods, loop) == -1).all()
+    assert before.items() <= after.items()
+    hanging = set(np.flatnonzero(cut_points(links.neighborhoods, loop) != -1))
+    new = after.keys() - before.keys()
+    assert all((i in hanging) != (j in hanging) and after[i, j] == LONE_TRUST for i, j in new)
+    assert (len(new) > 0) == (len(hanging) > 0) == (apart == 4.5)
+
+
+def test_a_clump_that_hangs_on_one_point_is_meshed_as_a_part_of_a_certified_disc():
+    points, loop = with_clump(4.5)
+    assert reconstruct(points, loop).certificate.is_as_asked

@@ -3,9 +3,10 @@ import pytest
 
 from pointchart import shapes
 from pointchart.links import link_stars, trusted
+from pointchart.neighbors import from_pairs
 from pointchart.parameterize import parameterize
 from pointchart.pipeline import reconstruct
-from pointchart.reopen import COLLAPSED, parameterize_open
+from pointchart.reopen import COLLAPSED, _carried_on, parameterize_open
 from pointchart.triangulate import coinciding
 from pointchart.vicinity import explore
 
@@ -16,8 +17,8 @@ def parts_of(shape):
     return links.neighborhoods, trusted(links), np.column_stack([np.cos(turns), np.sin(turns)])
 
 
-def jittered(length, seed=1):
-    return shapes.add_noise(shapes.tube(length, n_around=16), sigma_in_spacings=0.1, seed=seed)
+def jittered(length, seed=1, sigma=0.1):
+    return shapes.add_noise(shapes.tube(length, n_around=16), sigma_in_spacings=sigma, seed=seed)
 
 
 def test_a_map_in_which_nothing_collapses_is_the_convex_combination_map_itself():
@@ -43,10 +44,23 @@ def test_a_tube_of_60_radii_collapses_and_is_opened():
     assert np.bincount(graph.rows, new) == pytest.approx(1.0, rel=1e-12)
 
 
-@pytest.mark.parametrize("length", [1, 20, 40, 60])
-def test_a_noisy_tube_is_a_certified_disc(length):
-    shape = jittered(length)
+@pytest.mark.parametrize(("length", "sigma"), [(1, 0.1), (20, 0.1), (60, 0.1), (60, 0.25), (120, 0.25), (200, 0.1)])
+def test_a_noisy_tube_is_a_certified_disc(length, sigma):
+    shape = jittered(length, sigma=sigma)
     certificate = reconstruct(shape.points, shape.boundary).certificate
     assert certificate.is_disc
     assert certificate.is_one_to_one
     assert certificate.longest_edge_over_spacing < 2.5
+
+
+def test_a_stretch_that_grows_evenly_from_the_boundary_goes_on_evenly_where_it_is_lost():
+    x = np.r_[0.0, np.cumsum(np.random.default_rng(2).uniform(0.5, 2.0, 29))]
+    points = np.column_stack([x, 0 * x, 0 * x])
+    steps = np.arange(29)
+    rows, columns = np.r_[steps, steps + 1], np.r_[steps + 1, steps]
+    order = np.argsort(rows, kind="stable")
+    chain = from_pairs(rows[order], columns[order], 30)
+    true = 3.0 + 0.7 * x
+    seen = np.where(x < 9.0, true, np.nan)
+    assert np.isnan(seen).sum() > 10
+    assert _carried_on(seen, points, np.array([0]), chain) == pytest.approx(true, rel=1e-12)

@@ -12,11 +12,11 @@ from .mesh import one_rings
 from .parameterize import Parameterization, parameterize, solve_map
 from .quality import l2_stretch, vertex_stretches
 from .refine import Meshed
+from .reopen import openings
 from .solve import Solver
 from .typing import UV, Loop, Points, Triangles
 from .weights import WeightScheme, fixed, mean_value, normalize, uniform
 
-SOLVES = 5
 RELAXATIONS = 8  # the stretch falls most in the first two; thin limbs go on to open up to the eighth
 
 ChartRule: TypeAlias = Callable[[Points, Loop, UV, Meshed, Solver], Parameterization]
@@ -25,9 +25,8 @@ ChartRule: TypeAlias = Callable[[Points, Loop, UV, Meshed, Solver], Parameteriza
 def uv_on_mesh(points: Points, loop: Loop, boundary_uv: UV, meshed: Meshed, solver: Solver) -> Parameterization:
     """Map the mesh by mean value weights: one-to-one, by Tutte's and Floater's theorem.
 
-    Where a triangle is flat in double precision all the same, weights are divided by the stretch at the neighbour,
-    which opens what has shrunk, and the map is solved again; failing that, the same is done from uniform weights,
-    Tutte's own. Weights stay positive, so the theorem holds throughout.
+    Where a triangle is flat in double precision all the same, the map is opened by other weights (`openings`); failing
+    that, the same is done from uniform weights, Tutte's own. Weights stay positive, so the theorem holds throughout.
 
     Parameters
     ----------
@@ -51,11 +50,13 @@ def uv_on_mesh(points: Points, loop: Loop, boundary_uv: UV, meshed: Meshed, solv
     Yoshizawa, Belyaev and Seidel 2004, A fast and simple stretch-minimizing mesh parameterization.
     """
     triangles = meshed.swapped.triangles
+    rings = one_rings(triangles, len(points))
     mapped: Parameterization | None = None
     failure: PointchartError | None = None
     for scheme in (mean_value, uniform):
         try:
-            for mapped in islice(relaxations(points, loop, boundary_uv, triangles, scheme, solver), SOLVES):
+            for opening in openings(points, loop, boundary_uv, rings, weights=scheme, solver=solver):
+                mapped = opening.mapped
                 if is_positive(mapped.uv, triangles):
                     return mapped
         except PointchartError as reason:

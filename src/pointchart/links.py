@@ -4,17 +4,20 @@ from dataclasses import dataclass
 
 import numpy as np
 import scipy.sparse as sp
+from scipy.spatial import KDTree
 
 from ._kernels.links import agreement, within_two_edges
 from ._parallel import over_ranges
 from .errors import InputError
 from .mesh import one_rings
 from .neighbors import Neighborhoods
-from .typing import Floats, Indices, Mask, Points, Triangles, Weights
+from .parameterize import cut_points
+from .typing import Floats, Indices, Loop, Mask, Points, Triangles, Weights
 from .weights import WeightScheme, normalize, reciprocal_distance
 
 FULL_TRUST = 1.0
 LONE_TRUST = 0.01  # a link that only one star sees: never 0, since the graph must stay connected
+TIES = 3  # of a point that hangs on one point: to as many points beside
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -68,6 +71,47 @@ def link_stars(star: Neighborhoods, *, also: Neighborhoods | None = None) -> Lin
     both = graph.maximum(graph.T.tocsr()).tocsr()
     neighborhoods = Neighborhoods(both.indptr.astype(np.int64), both.indices.astype(np.int64))
     return Links(neighborhoods, both.data)
+
+
+def tie_down(points: Points, links: Links, loop: Loop) -> Links:
+    """Link points that hang on a single point, or on none, to the nearest points that do not.
+
+    All paths from such a point to the boundary pass one point, into which it would collapse (Proposition 3.1), as in a
+    clump that floats over the surface. The new links have the least trust.
+
+    Parameters
+    ----------
+    points : (n, 3) array
+    links : Links
+    loop : (b,) int array
+        The boundary.
+
+    Returns
+    -------
+    Links
+        The same, if no point hangs.
+
+    Examples
+    --------
+    >>> from pointchart.neighbors import nearest
+    >>> from pointchart.stars import delaunay_star
+    >>> plus = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0], [0, 0, 9]])
+    >>> star = delaunay_star(plus[:5], nearest(plus[:5], 4))
+    >>> apart = Neighborhoods(np.append(star.indptr, 16), star.indices, None, np.append(star.is_open, True))
+    >>> tied = tie_down(plus, link_stars(apart), np.arange(1, 5))
+    >>> int(tied.neighborhoods.sizes[5])
+    3
+    """
+    graph, n = links.neighborhoods, len(points)
+    hangs = cut_points(graph, loop) != -1
+    if not hangs.any():
+        return links
+    loose, rest = np.flatnonzero(hangs), np.flatnonzero(~hangs)
+    _, nearest = KDTree(points[rest]).query(points[loose], k=min(TIES, len(rest)))
+    rows, columns = np.repeat(loose, nearest.shape[1]), rest[nearest.ravel()]
+    ties = sp.csr_array((np.full(len(rows), LONE_TRUST), (rows, columns)), shape=(n, n))
+    tied = sp.csr_array((links.trust, graph.indices, graph.indptr), shape=(n, n)).maximum(ties.maximum(ties.T)).tocsr()
+    return Links(Neighborhoods(tied.indptr.astype(np.int64), tied.indices.astype(np.int64)), tied.data)
 
 
 def disputed_links(star: Neighborhoods) -> Indices:

@@ -13,7 +13,7 @@ from .chart import ChartRule, uv_free_boundary, uv_low_stretch, uv_on_mesh
 from .clock import StageClock
 from .errors import PointchartError, SolveError, points_called
 from .gaps import GapRule, Rims, bridge_gaps, check_torn, refuse_second_boundary
-from .links import disputed_links, link_stars, trusted
+from .links import disputed_links, link_stars, tie_down, trusted
 from .neighbors import Neighborhoods, nearest
 from .parameterize import Parameterization, parameterize
 from .refine import Meshed, SwapRule, mesh_by_links, mesh_once
@@ -278,7 +278,7 @@ def _mesh(
     if connect is None and weights is None:
         with clock("neighbours"):
             as_read = nearest_star(points, survey.vicinity.around)
-            links = link_stars(survey.vicinity.star, also=as_read)
+            links = tie_down(points, link_stars(survey.vicinity.star, also=as_read), rim)
         if swap is not keep_edges:
             return mesh_by_links(points, rim, circle, links, survey.vicinity.around, solver=solver, clock=clock)
         neighborhoods, scheme = links.neighborhoods, trusted(links)
