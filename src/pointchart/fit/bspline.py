@@ -43,7 +43,7 @@ class BSplineSurface:
     @property
     def n_control(self) -> int:
         """Number of control points."""
-        return self.control.shape[0] * self.control.shape[1]
+        return self.control.size // 3
 
     @property
     def domain(self) -> Floats:

@@ -24,7 +24,7 @@ def normals(surface: Surface, uv: UV) -> Points:
     """Return unit normals, s_u x s_v over its length, (n, 3); nan where the surface is singular."""
     across = np.cross(surface.derivatives(uv, 1, 0), surface.derivatives(uv, 0, 1))
     length = np.linalg.norm(across, axis=1, keepdims=True)
-    return np.divide(across, length, out=np.full_like(across, np.nan), where=length > 0.0)
+    return np.asarray(np.divide(across, length, out=np.full_like(across, np.nan), where=length > 0.0))
 
 
 def curvatures(surface: Surface, uv: UV) -> tuple[Floats, Floats]:
@@ -42,10 +42,11 @@ def curvatures(surface: Surface, uv: UV) -> tuple[Floats, Floats]:
     """
     in_u, in_v = surface.derivatives(uv, 1, 0), surface.derivatives(uv, 0, 1)
     normal = normals(surface, uv)
-    e, f, g = _dot(in_u, in_u), _dot(in_u, in_v), _dot(in_v, in_v)
-    l, m, n = (_dot(surface.derivatives(uv, du, 2 - du), normal) for du in (2, 1, 0))
-    area = e * g - f * f
-    return (l * n - m * m) / area, (e * n - 2.0 * f * m + g * l) / (2.0 * area)
+    first = _dot(in_u, in_u), _dot(in_u, in_v), _dot(in_v, in_v)
+    second = [_dot(surface.derivatives(uv, du, 2 - du), normal) for du in (2, 1, 0)]
+    area = first[0] * first[2] - first[1] ** 2
+    mixed = first[0] * second[2] - 2.0 * first[1] * second[1] + first[2] * second[0]
+    return (second[0] * second[2] - second[1] ** 2) / area, mixed / (2.0 * area)
 
 
 def _dot(a: Points, b: Points) -> Floats:
