@@ -8,6 +8,7 @@ import pytest
 from pointchart import _kernels
 from pointchart._kernels import drafts, planes, recover, relocate, rims, sides
 from pointchart._kernels import half_edges as half_edge_kernels
+from pointchart.fit import fit_radial, interpolate_clough_tocher
 from pointchart.intersections import box_tree
 from pointchart.mesh import half_edges, one_rings, start_draft
 from pointchart.neighbors import nearest
@@ -56,6 +57,9 @@ SPANS = np.array([[0.0, 0, 0], [4, 0, 0], [0, 4, 0], [1, 1, -1], [1, 1, 1], [9, 
 SPAN_BOXES = box_tree(SPANS[::3], SPANS[1::3], SPANS[2::3])
 SWEEP = (np.argsort(X_ENDS.min(axis=1)), X_ENDS.min(axis=1), X_ENDS.max(axis=1))
 
+CUBICS = interpolate_clough_tocher(SHAPE.points, SHAPE.uv, SHAPE.triangles)
+SPLINES = fit_radial(SHAPE.points, SHAPE.uv, nearby=20)
+
 ASTRAY = int(np.setdiff1d(np.arange(N), SHAPE.boundary)[7])
 
 
@@ -82,6 +86,32 @@ def thinned_out():
 
 
 CASES = {
+    "clough_tocher.contract": lambda: (SHAPE.points[:10].copy(), 3, 0.2, 0.5, 0.3),
+    "clough_tocher.coordinates": lambda: (SHAPE.uv, SHAPE.triangles[5], 0.1, 0.2, np.zeros((3, 3))),
+    "clough_tocher.evaluate": lambda: (
+        CUBICS.uv,
+        CUBICS.triangles,
+        CUBICS.boxes,
+        1e-15,
+        CUBICS.points,
+        CUBICS.gradients,
+        CUBICS.crossings,
+        SHAPE.uv,
+        1,
+        1,
+        0,
+        N,
+        np.zeros((N, 3)),
+    ),
+    "clough_tocher.write_net": lambda: (
+        CUBICS.points,
+        CUBICS.gradients,
+        CUBICS.uv,
+        CUBICS.triangles[5],
+        CUBICS.crossings[5],
+        1,
+        np.zeros((10, 3)),
+    ),
     "crossings.find_crossing": lambda: (PENTAGRAM, *SWEEP, ints((320, 2))),
     "crossings.turn": lambda: (0.0, 0.0, 1.0, 0.0, 0.5, 1e-300),
     "curvature_swaps.area_vector": lambda: (SHAPE.points, 7, 3, 5),
@@ -187,6 +217,11 @@ CASES = {
         N,
         bools(len(AROUND.indices)),
     ),
+    "locate.depth": lambda: (SHAPE.uv, SHAPE.triangles[5], 0.1, 0.2),
+    "locate.doubled_area": lambda: (SHAPE.uv, 0, 1, 0.1, 0.2),
+    "locate.find_triangle": lambda: (CUBICS.uv, CUBICS.triangles, CUBICS.boxes, 0.1, 0.2, 1e-15),
+    "locate.holds": lambda: (CUBICS.boxes, 1, 0.1, 0.2, 0.0),
+    "locate.next_box": lambda: (11,),
     "peel.peel": lambda: (EDGES.origins, EDGES.twins, SUCCESSOR, ints(len(EDGES.origins)), bools(len(SHAPE.triangles))),
     "planes.smallest_eigenvector": lambda: (3.0, 0.2, 0.1, 2.0, -0.3, 1.0),
     "planes.tangent_frame": lambda: (0.48, 0.6, -0.64),
@@ -200,6 +235,31 @@ CASES = {
         np.zeros((N, 3)),
         np.zeros(N),
     ),
+    "radial.add_product": lambda: (np.arange(6.0), np.arange(24.0).reshape(6, 4), np.ones((6, 4))),
+    "radial.divide": lambda: (np.arange(1.0, 25.0).reshape(6, 4),),
+    "radial.evaluate": lambda: (
+        SPLINES.domain,
+        SPLINES.discs,
+        SPLINES.boxes,
+        SPLINES.centres,
+        SPLINES.coefficients,
+        SHAPE.uv,
+        4,
+        0,
+        N,
+        np.zeros((N, 3)),
+    ),
+    "radial.start_jet": lambda: (SHAPE.points[:6], 0.1, 0.2, np.zeros((6, 4))),
+    "radial.surface_jet": lambda: (
+        SPLINES.centres[0],
+        SPLINES.coefficients[0],
+        0.1,
+        0.2,
+        0.3,
+        2,
+        np.zeros((6, 4)),
+    ),
+    "radial.weight_jet": lambda: (0.1, 0.2, 0.5, np.zeros(6)),
     "recover.edge_towards": lambda: (draft(), SHAPE.uv, 0, 40),
     "recover.recover": lambda: (mixed_draft(), SHAPE.uv, RINGS.rows, RINGS.indices),
     "recover.recover_one": lambda: (draft(), SHAPE.uv, 0, 40),

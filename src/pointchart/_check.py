@@ -99,6 +99,23 @@ def check_place(place: ArrayLike, name: str = "place") -> Floats:
     return array
 
 
+def check_uv(uv: ArrayLike, n_points: int) -> UV:
+    """Return parameters as a contiguous (n, 2) float64 array.
+
+    Raises
+    ------
+    InputError
+        On a wrong shape, a wrong number, or NaN and infinity.
+    """
+    array = np.ascontiguousarray(uv, dtype=np.float64)
+    if array.shape != (n_points, 2):
+        raise InputError(f"parameters have shape {array.shape}; ({n_points}, 2) is needed: u, v for each point")
+    if not np.isfinite(array).all():
+        broken = np.flatnonzero(~np.isfinite(array).all(axis=1))
+        raise InputError(f"the parameters of {len(broken)} points are NaN or infinite, the first of point {broken[0]}")
+    return array
+
+
 def check_triangles(triangles: ArrayLike, n_points: int) -> Triangles:
     """Return triangles as (m, 3) int64, or say what is wrong with them.
 

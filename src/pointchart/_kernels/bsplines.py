@@ -1,4 +1,4 @@
-"""Tensor-product B-splines: basis functions, values and derivatives, normal equations, projections."""
+"""Tensor-product B-splines: basis functions, values and derivatives, normal equations."""
 
 import numpy as np
 from numba import njit
@@ -76,3 +76,35 @@ def evaluate(knots_u, knots_v, degree, control, uv, du, dv, first, last, out):
                 value = in_u[du, j] * in_v[dv, k]
                 for c in range(3):
                     out[i, c] += value * control[a - degree + j, b - degree + k, c]
+
+
+@njit(cache=True, nogil=True)
+def gather(knots_u, knots_v, degree, uv, points, weights, band, right):
+    """Add weighted products of basis functions: band[i * b + j, k, l] couples function (i, j) and (i+k-p, j+l-p)."""
+    triangle, factors = np.empty((degree + 1, degree + 1)), np.empty((2, degree + 1))
+    in_u, in_v = np.empty((1, degree + 1)), np.empty((1, degree + 1))
+    n_v = len(knots_v) - degree - 1
+    for i in range(len(uv)):
+        a, b = find_span(knots_u, degree, uv[i, 0]), find_span(knots_v, degree, uv[i, 1])
+        basis(knots_u, degree, a, uv[i, 0], 0, in_u, triangle, factors)
+        basis(knots_v, degree, b, uv[i, 1], 0, in_v, triangle, factors)
+        for j in range(degree + 1):
+            for k in range(degree + 1):
+                row, value = (a - degree + j) * n_v + b - degree + k, weights[i] * in_u[0, j] * in_v[0, k]
+                for c in range(3):
+                    right[row, c] += value * points[i, c]
+                for m in range(degree + 1):
+                    for n in range(degree + 1):
+                        band[row, m - j + degree, n - k + degree] += value * in_u[0, m] * in_v[0, n]
+
+
+@njit(cache=True, nogil=True)
+def basis_rows(knots, degree, places, order, values, columns):
+    """Write the derivatives of the functions that are not 0 at each place, and which they are."""
+    triangle, factors = np.empty((degree + 1, degree + 1)), np.empty((2, degree + 1))
+    out = np.empty((order + 1, degree + 1))
+    for i in range(len(places)):
+        span = find_span(knots, degree, places[i])
+        basis(knots, degree, span, places[i], order, out, triangle, factors)
+        for j in range(degree + 1):
+            values[i, j], columns[i, j] = out[order, j], span - degree + j

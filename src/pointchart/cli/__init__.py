@@ -7,10 +7,10 @@ from typing import Annotated
 import typer
 
 from ..errors import PointchartError
-from . import boundary, check, demo, mesh, param
+from . import boundary, check, demo, fit, mesh, param
 
 app = typer.Typer(
-    help="From a point cloud of one surface patch to planar parameters and a triangle mesh, certified to be a disc.",
+    help="From a point cloud of one surface patch to planar parameters, a certified disc mesh and a CAD surface.",
     no_args_is_help=True,
     add_completion=False,
     pretty_exceptions_enable=False,
@@ -37,6 +37,7 @@ def common(
 app.command()(mesh.mesh)
 app.command()(param.param)
 app.command()(boundary.boundary)
+app.command()(fit.fit)
 app.command()(check.check)
 app.command()(demo.demo)
 

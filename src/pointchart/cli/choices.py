@@ -83,6 +83,17 @@ class Chart(StrEnum):
     paper = "paper"
 
 
+class Unit(StrEnum):
+    """Units of length."""
+
+    mm = "mm"
+    cm = "cm"
+    m = "m"
+    um = "um"
+    inch = "in"
+    ft = "ft"
+
+
 WEIGHTS: dict[Weighting, WeightScheme] = {
     Weighting.mean_value: weights.mean_value,
     Weighting.shape_preserving: weights.shape_preserving,
@@ -182,3 +193,15 @@ def outer_place(text: str | None, boundary: Path | None = None) -> Floats | None
     if not np.isfinite(place).all():
         raise typer.BadParameter(f"--outer is '{text}'; a place is needed, such as 0.5,-12,3.25")
     return place
+
+
+def amount(option: str, text: str, whole: float) -> float:
+    """Read a number, or a percentage of a whole."""
+    number = text.strip().removesuffix("%")
+    try:
+        value = float(number) * (whole / 100.0 if number != text.strip() else 1.0)
+    except ValueError:
+        raise typer.BadParameter(f"{option} is '{text}'; a number is needed, or one with %, such as 0.1%") from None
+    if not 0.0 <= value < float("inf"):
+        raise typer.BadParameter(f"{option} is '{text}'; it has to be at least 0 and finite")
+    return value

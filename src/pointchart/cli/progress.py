@@ -20,6 +20,7 @@ OVER_BY = {
     "relocate": 72,
     "parameters": 78,
     "certify": 93,
+    "fit": 95,
 }
 
 

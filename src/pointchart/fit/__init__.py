@@ -1,6 +1,33 @@
 """Smooth surfaces over the parameters."""
 
 from .bspline import BSplineSurface
-from .surface import Surface, curvatures, evaluate, normals
+from .clough_tocher import CloughTocherSurface, interpolate_clough_tocher
+from .deviation import Deviation, deviation_table, measure_deviation
+from .least_squares import least_squares
+from .radial import RadialSurface, fit_radial
+from .refine import Fit, Level, fit_bspline, huber, squares
+from .surface import Surface, closest_parameters, curvatures, evaluate, normals
+from .tessellate import tessellate
 
-__all__ = ["BSplineSurface", "Surface", "curvatures", "evaluate", "normals"]
+__all__ = [
+    "BSplineSurface",
+    "CloughTocherSurface",
+    "Deviation",
+    "Fit",
+    "Level",
+    "RadialSurface",
+    "Surface",
+    "closest_parameters",
+    "curvatures",
+    "deviation_table",
+    "evaluate",
+    "fit_bspline",
+    "fit_radial",
+    "huber",
+    "interpolate_clough_tocher",
+    "least_squares",
+    "measure_deviation",
+    "normals",
+    "squares",
+    "tessellate",
+]

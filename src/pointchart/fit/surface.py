@@ -6,9 +6,18 @@ import numpy as np
 
 from ..typing import UV, Floats, Points
 
+HALVINGS = 0.5 ** np.arange(6)  # of a step that leads no nearer
+SETTLED = 1e-12  # of the domain: a smaller step ends the search
+CONVEX = 0.1  # of the metric: a Hessian below it is left for Gauss's
+
 
 class Surface(Protocol):
     """A smooth map from the parameter plane to space."""
+
+    @property
+    def domain(self) -> Floats:
+        """The least and the largest parameters: ((u, v), (u, v))."""
+        ...
 
     def derivatives(self, uv: UV, du: int = 0, dv: int = 0) -> Points:
         """Return the derivative of order `du` in u and `dv` in v at each parameter pair, (n, 3); (0, 0): the points."""
@@ -47,6 +56,74 @@ def curvatures(surface: Surface, uv: UV) -> tuple[Floats, Floats]:
     area = first[0] * first[2] - first[1] ** 2
     mixed = first[0] * second[2] - 2.0 * first[1] * second[1] + first[2] * second[0]
     return (second[0] * second[2] - second[1] ** 2) / area, mixed / (2.0 * area)
+
+
+def closest_parameters(surface: Surface, points: Points, uv: UV, *, n_steps: int = 20) -> UV:
+    r"""Find the parameters of the points of a surface that are nearest to given points, from parameters near by.
+
+    Newton's method on :math:`|s(u, v) - x|^2`, Gauss's where the Hessian is not positive. Each step is halved until it
+    leads nearer, and ends at the border of the domain, so the distance never grows.
+
+    Parameters
+    ----------
+    surface : Surface
+    points : (n, 3) array
+    uv : (n, 2) array
+        Where to start; the nearest point of the neighbourhood is found, not of the whole surface.
+    n_steps : int
+        At most.
+
+    Returns
+    -------
+    (n, 2) array
+
+    References
+    ----------
+    Hoschek and Lasser 1993, section 4.4 (parameter correction). Piegl and Tiller 1997, section 6.1.
+    """
+    uv = np.clip(uv, *surface.domain)
+    square = _square(evaluate(surface, uv) - points)
+    moving = np.arange(len(points))
+    for _ in range(n_steps):
+        if len(moving) == 0:
+            break
+        at = uv[moving]
+        step = _newton_step(surface, points[moving], at)
+        for size in HALVINGS:
+            there = np.clip(at + size * step, *surface.domain)
+            nearer = _square(evaluate(surface, there) - points[moving])
+            gains = nearer < square[moving]
+            uv[moving[gains]], square[moving[gains]] = there[gains], nearer[gains]
+            step[gains] = 0.0
+            if gains.all():
+                break
+        moving = moving[np.abs(uv[moving] - at).max(axis=1) > SETTLED * np.ptp(surface.domain, axis=0).max()]
+    return uv
+
+
+def _newton_step(surface: Surface, points: Points, uv: UV) -> UV:
+    """Return the step to the nearest point; along one axis only where the border holds the other."""
+    off = evaluate(surface, uv) - points
+    along = np.stack([surface.derivatives(uv, 1, 0), surface.derivatives(uv, 0, 1)], axis=1)
+    gradient = np.einsum("nic,nc->ni", along, off)
+    metric = np.einsum("nic,njc->nij", along, along)
+    second = [_dot(surface.derivatives(uv, du, 2 - du), off) for du in (2, 1, 0)]
+    hessian = metric + np.stack([np.stack(second[:2], axis=1), np.stack(second[1:], axis=1)], axis=1)
+    is_convex = (np.linalg.det(hessian) > CONVEX * np.linalg.det(metric)) & (
+        hessian[:, 0, 0] > CONVEX * metric[:, 0, 0]
+    )
+    hessian[~is_convex] = metric[~is_convex]
+    low, high = surface.domain
+    held = ((uv <= low) & (gradient > 0.0)) | ((uv >= high) & (gradient < 0.0))
+    hessian[held.any(axis=1), [[0], [1]], [[1], [0]]] = 0.0
+    gradient[held] = 0.0
+    trace = np.trace(hessian, axis1=1, axis2=2)
+    hessian[:, [0, 1], [0, 1]] += 1e-14 * trace[:, None] + np.finfo(float).tiny
+    return -np.linalg.solve(hessian, gradient[..., None])[..., 0]
+
+
+def _square(vectors: Points) -> Floats:
+    return _dot(vectors, vectors)
 
 
 def _dot(a: Points, b: Points) -> Floats:

@@ -1,0 +1,147 @@
+"""``pointchart fit``: from a scan to a smooth surface that CAD reads."""
+
+import sys
+from contextlib import ExitStack
+from pathlib import Path
+from typing import Annotated
+
+import numpy as np
+import typer
+
+from ..errors import points_called
+from ..fit import huber, squares, tessellate
+from ..io import MESH_SUFFIXES, UV_SUFFIXES, check_output, replacing, write_mesh, write_uv
+from ..report import run_report, writing_json
+from ..surface_io import CAD_SUFFIXES, write_cad, write_surface_json
+from ..surface_io.occ import check_extra
+from ..surface_picture import draw_deviation, draw_reflections
+from ..surface_report import explain_lines, surface_lines, surface_report
+from ..surfacing import SurfacedScan, check_met, fit_scan
+from . import options as given
+from .choices import GAPS, Holes, Unit, amount, outer_place
+from .inputs import read_inputs
+from .output import carried, given_options
+from .progress import staged
+
+TESSELLATED = 100_000  # points of the mesh of a surface
+
+
+def fit(
+    context: typer.Context,
+    scan: given.ScanArgument,
+    out: Annotated[
+        Path,
+        typer.Option(
+            "--out",
+            "-o",
+            metavar="SURFACE",
+            help="Surface to write: step, iges, brep (extra cad), json; or its triangles: ply, obj, stl, glb, ...",
+        ),
+    ],
+    tolerance: Annotated[
+        str, typer.Option("--tolerance", help="Largest deviation: in the unit of the scan, or in % of its diagonal.")
+    ] = "0.1%",
+    outliers: Annotated[
+        str, typer.Option("--outliers", help="Points that may deviate by more: a share, such as 0.005, or in %.")
+    ] = "0.5%",
+    max_control_points: Annotated[
+        int | None,
+        typer.Option("--max-control-points", min=1, help="At most so many; by default half the number of points."),
+    ] = None,
+    degree: Annotated[int, typer.Option("--degree", min=2, max=5, help="Of the surface, in both directions.")] = 3,
+    fairness: Annotated[
+        str,
+        typer.Option("--fairness", help="Weight of the thin plate energy, such as 1e-5; auto: by points left out."),
+    ] = "auto",
+    robust: Annotated[bool, typer.Option("--robust", help="Give points far off less weight (Huber).")] = False,
+    unit: Annotated[Unit, typer.Option("--unit", help="Unit of the scan, written into CAD files.")] = Unit.mm,
+    best_effort: Annotated[
+        bool, typer.Option("--best-effort", help="Write the best surface where the tolerance is not met.")
+    ] = False,
+    boundary: given.BoundaryOption = None,
+    outer: given.OuterOption = None,
+    holes: Annotated[
+        Holes | None,
+        typer.Option("--holes", help="Bridge all gaps of the scan, or cut them out; cut out, if not given."),
+    ] = None,
+    component: given.ComponentOption = None,
+    deviations: Annotated[
+        Path | None,
+        typer.Option(
+            "--deviations", metavar="FILE", help="Write each point with its u, v and signed deviation: csv, ply, npz."
+        ),
+    ] = None,
+    picture: Annotated[
+        Path | None, typer.Option("--picture", metavar="PNG", help="Draw the deviation map and its histogram.")
+    ] = None,
+    reflections: Annotated[
+        Path | None, typer.Option("--reflections", metavar="PNG", help="Draw reflection lines and curvature.")
+    ] = None,
+    explain: Annotated[bool, typer.Option("--explain", help="Say which choices were made and why.")] = False,
+    report: given.ReportOption = None,
+    quiet: given.QuietOption = False,
+) -> None:
+    """Fit a trimmed B-spline surface to a scan of one surface patch, to a tolerance, for CAD."""
+    share, place = amount("--outliers", outliers, 1.0), outer_place(outer, boundary)
+    fair = None if fairness == "auto" else amount("--fairness", fairness, 1.0)
+    beside = [(deviations, UV_SUFFIXES), (picture, (".png",)), (reflections, (".png",)), (report, (".json",))]
+    taken = [scan, out]
+    for path, suffixes in beside:
+        if path is not None:
+            taken.append(check_output(path, suffixes=suffixes, inputs=taken))
+    if out.suffix.lower() in CAD_SUFFIXES:
+        check_extra(out)
+    inputs = read_inputs(
+        scan, boundary, None, out=out, suffixes=(*CAD_SUFFIXES, ".json", *MESH_SUFFIXES), component=component
+    )
+    allowed = amount("--tolerance", tolerance, float(np.linalg.norm(np.ptp(inputs.points, axis=0))))
+    with staged(quiet) as clock, points_called(inputs.rows):
+        surfaced = fit_scan(
+            inputs.points,
+            inputs.loop,
+            tolerance=allowed,
+            outliers=share,
+            max_control=max_control_points,
+            degree=degree,
+            fairness=fair,
+            loss=huber if robust else squares,
+            outer=place,
+            gaps=None if holes is None else GAPS[holes],
+            clock=clock,
+        )
+        if not best_effort:
+            check_met(surfaced, allowed, share)
+    rows = inputs.rows[surfaced.reconstruction.rows]
+    points = inputs.scan.points[rows]
+    is_given = boundary is not None
+    run = run_report(
+        inputs.scan.points, inputs.rows, surfaced.reconstruction, clock, given_options(context), boundary_given=is_given
+    )
+    run["surface"] = surface_report(surfaced, points, allowed, share, unit)
+    with ExitStack() as stack, writing_json(report, run):
+        # Each file is in its place only when all of them are written.
+        if deviations is not None:
+            attributes = carried(inputs, rows) | {"deviation": surfaced.deviation.signed}
+            write_uv(stack.enter_context(replacing(deviations)), surfaced.fit.uv, points=points, attributes=attributes)
+        if picture is not None:
+            file = stack.enter_context(replacing(picture))
+            draw_deviation(
+                file, surfaced.fit.surface, surfaced.loops, points, surfaced.deviation, allowed, outliers=share
+            )
+        if reflections is not None:
+            draw_reflections(stack.enter_context(replacing(reflections)), surfaced.fit.surface, surfaced.loops)
+        _write_surface(out, surfaced, unit)
+    if not quiet:
+        lines = surface_lines(surfaced, allowed, share, unit)
+        print("\n".join([*(explain_lines(surfaced) if explain else []), *lines, str(out)]), file=sys.stderr)
+
+
+def _write_surface(out: Path, surfaced: SurfacedScan, unit: Unit) -> None:
+    surface, loops, suffix = surfaced.fit.surface, surfaced.loops, out.suffix.lower()
+    if suffix in CAD_SUFFIXES:
+        write_cad(out, surface, loops, unit=unit, name=out.stem)
+    elif suffix == ".json":
+        write_surface_json(out, surface, loops, unit=unit)
+    else:
+        points, triangles, uv = tessellate(surface, loops, TESSELLATED)
+        write_mesh(out, points, triangles, uv=uv)

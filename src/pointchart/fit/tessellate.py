@@ -1,0 +1,214 @@
+"""Triangle meshes of trimmed surfaces, for display and for export."""
+
+from collections.abc import Sequence
+
+import numpy as np
+import scipy.sparse as sp
+from numpy.typing import ArrayLike
+from scipy.spatial import cKDTree
+
+from .._exact import is_simple
+from ..errors import InputError, SolveError
+from ..mesh import HalfEdges, half_edges
+from ..triangulate import coinciding, triangulate
+from ..typing import UV, Floats, Indices, Mask, Points, Triangles
+from .surface import Surface
+
+PROBES = 24  # in each direction, at which the stretch of the surface is measured
+CLEARANCE = 0.71  # in spacings: no point as far as this from the ends of a side is in the circle over the side
+FRAME = 256  # points around all others; the fewer, the more triangles meet in each, which is slow
+MOST_ROUNDS = 60  # of halved sides, after which the loops must touch
+
+
+def tessellate(surface: Surface, loops: Sequence[ArrayLike], n: int) -> tuple[Points, Triangles, UV]:
+    """Triangulate the part of a surface inside a loop and outside others.
+
+    Staggered rows of points fill the parameter plane, u and v being scaled so that rows are as far apart in space as
+    their points, up to the square root of two. Sides of the loops are cut into pieces no longer than that spacing, and
+    halved where Delaunay's criterion does not have them as edges; so the mesh is the constrained Delaunay triangulation
+    of its points. Loops much finer than the spacing make thin triangles along them.
+
+    Parameters
+    ----------
+    surface : Surface
+    loops : sequence of (b, 2) arrays
+        Simple polygons in the parameter plane, not closed: the outer one, anticlockwise, then holes, clockwise.
+    n : int
+        Points to put inside, about.
+
+    Returns
+    -------
+    points : (k, 3) float64 array, in the unit of the surface; the loops with their cut sides come first.
+    triangles : (m, 3) int64 array, every one exactly anticlockwise in uv.
+    uv : (k, 2) float64 array.
+
+    Raises
+    ------
+    InputError
+        If a loop crosses or touches itself, runs the wrong way or lies at the wrong place, or `n` is less than 1.
+    SolveError
+        If loops cross or touch each other.
+
+    References
+    ----------
+    Ruppert 1995, A Delaunay refinement algorithm for quality 2-dimensional mesh generation, section 3 (halved sides).
+
+    Examples
+    --------
+    >>> from pointchart.fit import BSplineSurface
+    >>> corners = np.array([[[0.0, 0, 0], [0, 1, 0]], [[1, 0, 0], [1, 1, 0]]])
+    >>> square = BSplineSurface(1, np.array([0.0, 0, 1, 1]), np.array([0.0, 0, 1, 1]), corners)
+    >>> points, triangles, uv = tessellate(square, [np.array([[0.0, 0], [1, 0], [1, 1], [0, 1]])], 1)
+    >>> points[:, :2].tolist() == uv.tolist(), len(triangles)
+    (True, 2)
+    """
+    if n < 1:
+        raise InputError(f"{n} points cannot fill a surface; ask for at least 1")
+    polygons = [np.array(loop, dtype=np.float64) for loop in loops]
+    areas = _check_loops(polygons)
+    scale = _scale(surface, polygons[0])
+    spacing = float(np.sqrt(2.0 / np.sqrt(3.0) * areas.sum() * scale.prod() / n))
+    polygons = [_cut(polygon, _pieces(polygon, spacing)) for polygon in (loop * scale for loop in polygons)]
+    plane, triangles = _conforming(polygons, _staggered(polygons, spacing))
+    used, corners = np.unique(triangles, return_inverse=True)
+    uv = plane[used] / scale
+    return surface.derivatives(uv), corners.reshape(-1, 3).astype(np.int64), uv
+
+
+def _check_loops(polygons: list[UV]) -> Floats:
+    """Return the area of each loop, negative for holes, or say what is wrong with them."""
+    if not polygons:
+        raise InputError("there are no loops; give the outer one at least")
+    areas = np.empty(len(polygons))
+    for k, polygon in enumerate(polygons):
+        if polygon.ndim != 2 or polygon.shape[1] != 2 or len(polygon) < 3 or not np.isfinite(polygon).all():
+            raise InputError(f"loop {k} has shape {polygon.shape}; at least 3 finite corners, (b, 2), are needed")
+        x, y = (polygon - polygon[0]).T
+        areas[k] = 0.5 * (x * np.roll(y, -1) - y * np.roll(x, -1)).sum()
+        if areas[k] == 0.0 or not is_simple(polygon):
+            raise InputError(f"loop {k} of {len(polygon)} corners crosses or touches itself; give a simple polygon")
+        if (areas[k] < 0.0) == (k == 0):
+            way = "clockwise, but the outer one" if k == 0 else "anticlockwise, but a hole"
+            raise InputError(f"loop {k} runs {way} has the surface on its left; reverse it")
+    if areas.sum() <= 0.0:
+        raise InputError(f"{len(areas) - 1} holes are together as large as loop 0; they lie side by side inside it")
+    return areas
+
+
+def _scale(surface: Surface, outer: UV) -> Floats:
+    """Return 1 and the mean stretch in v over that in u, to the nearest power of two: so no digit is lost."""
+    low, high = outer.min(axis=0), outer.max(axis=0)
+    probes = np.stack(np.meshgrid(*np.linspace(low, high, PROBES).T), axis=-1).reshape(-1, 2)
+    in_u, in_v = (np.linalg.norm(surface.derivatives(probes, *order), axis=1).mean() for order in ((1, 0), (0, 1)))
+    if in_u <= 0.0 or in_v <= 0.0:
+        return np.ones(2)
+    return np.array([1.0, 2.0 ** np.clip(np.rint(np.log2(in_v / in_u)), -64, 64)])
+
+
+def _pieces(polygon: UV, spacing: float) -> Indices:
+    lengths = np.linalg.norm(np.roll(polygon, -1, axis=0) - polygon, axis=1)
+    # A side that rounding makes longer than so many spacings is not cut once more.
+    return np.asarray(np.maximum(np.ceil(lengths / spacing - 1e-9), 1.0), np.int64)
+
+
+def _cut(polygon: UV, pieces: Indices) -> UV:
+    """Cut each side of a polygon into equal pieces; its corners stay as they are."""
+    side = np.repeat(np.arange(len(polygon)), pieces)
+    step = np.arange(len(side)) - np.repeat(np.cumsum(pieces) - pieces, pieces)
+    along = (np.roll(polygon, -1, axis=0) - polygon)[side]
+    return np.asarray(polygon[side] + (step / pieces[side])[:, None] * along)
+
+
+def _staggered(polygons: list[UV], spacing: float) -> UV:
+    """Fill the inside of the loops with an equilateral grid that keeps clear of all of them."""
+    starts = np.concatenate(polygons)
+    rise = np.sqrt(0.75) * spacing
+    low = starts.min(axis=0)
+    side, row = _rows_crossed((starts[:, 1] - low[1]) / rise, (_ends(polygons)[:, 1] - low[1]) / rise)
+    (x, y), (dx, dy) = starts[side].T, (_ends(polygons) - starts)[side].T
+    at = (x + (low[1] + row * rise - y) / dy * dx - low[0]) / spacing - 0.5 * (row % 2)
+    # A row is inside between its first and second crossing, its third and fourth, and so on.
+    order = np.lexsort((at, row))
+    first, last = np.ceil(at[order[::2]]).astype(np.int64), np.floor(at[order[1::2]]).astype(np.int64)
+    which, step = _counted(np.maximum(last - first + 1, 0))
+    row = row[order[::2]][which]
+    grid = low + np.column_stack([(first[which] + step + 0.5 * (row % 2)) * spacing, row * rise])
+    distance, _ = cKDTree(starts).query(grid, distance_upper_bound=CLEARANCE * spacing)
+    return np.asarray(grid[np.isinf(distance)])
+
+
+def _rows_crossed(start: Floats, end: Floats) -> tuple[Indices, Indices]:
+    """Return the pairs of a side and a row, a whole number, that it crosses or ends on from below."""
+    first, last = np.ceil(np.minimum(start, end)).astype(np.int64), np.ceil(np.maximum(start, end)).astype(np.int64)
+    side, step = _counted(last - first)
+    return side, first[side] + step
+
+
+def _counted(counts: Indices) -> tuple[Indices, Indices]:
+    """Return the number of each group as often as it counts, and numbers from 0 on within each."""
+    group = np.repeat(np.arange(len(counts)), counts)
+    return group, np.arange(len(group)) - np.repeat(np.cumsum(counts) - counts, counts)
+
+
+def _ends(polygons: list[UV]) -> UV:
+    """Return where the side ends that begins at each corner."""
+    return np.concatenate([np.roll(polygon, -1, axis=0) for polygon in polygons])
+
+
+def _triangulate_inside(polygons: list[UV], grid: UV) -> tuple[UV, Triangles]:
+    """Triangulate loops and grid with all sides of the loops as edges; return the points and the triangles inside."""
+    plane = np.concatenate([*polygons, grid, _frame(np.concatenate([*polygons, grid]))])
+    doubled = coinciding(plane)
+    if len(doubled):
+        raise _meeting(polygons, *doubled[(plane[doubled] == plane[doubled[0]]).all(axis=1)][:2].tolist())
+    draft = start_draft(plane, triangulate(plane, np.arange(len(plane) - FRAME, len(plane))), journal=2)
+    start, obstacle = constrain(draft, _ahead(polygons, len(plane)))
+    if start >= 0:
+        raise _meeting(polygons, start, obstacle)
+    triangles = draft.corners.reshape(-1, 3)
+    edges = half_edges(triangles, len(plane))
+    used, corners = np.unique(triangles[_inside(polygons, edges)], return_inverse=True)
+    # The sides are the boundary now, which swaps leave alone.
+    flat = np.column_stack([plane[used], np.zeros(len(used))])
+    return plane[used], swap_to_delaunay(flat, corners.reshape(-1, 3)).triangles
+
+
+def _meeting(polygons: list[UV], one: int, other: int) -> InputError:
+    first, second = sorted((_loop_of(polygons, one), _loop_of(polygons, other)))
+    loops = f"loops {first} and {second} cross or touch each other" if first != second else f"loop {first} meets itself"
+    return InputError(f"{loops} near {_corner(polygons, one)}; draw them apart")
+
+
+def _frame(plane: UV) -> UV:
+    """Return a circle of points around all others, so many that none has a side of the outer loop to itself."""
+    low, high = plane.min(axis=0), plane.max(axis=0)
+    turn = np.arange(FRAME) * 2.0 * np.pi / FRAME
+    radius = 0.75 * np.linalg.norm(high - low)
+    return np.asarray((low + high) / 2.0 + radius * np.column_stack([np.cos(turn), np.sin(turn)]))
+
+
+def _sides(polygons: list[UV], edges: HalfEdges, n_points: int) -> tuple[Indices, Mask]:
+    """Find the half-edge along each side of the loops; return them, and whether they are there."""
+    sizes = [len(polygon) for polygon in polygons]
+    start = np.repeat(np.cumsum(sizes) - sizes, sizes)
+    origins = np.arange(sum(sizes))
+    targets = start + (origins - start + 1) % np.repeat(sizes, sizes)
+    keys, wanted = edges.origins * n_points + edges.targets, origins * n_points + targets
+    order = np.argsort(keys)
+    found = order[np.minimum(np.searchsorted(keys, wanted, sorter=order), len(keys) - 1)]
+    return found, keys[found] == wanted
+
+
+def _inside(polygons: list[UV], edges: HalfEdges, sides: Indices) -> Mask:
+    """Tell for each triangle whether it is in the part that every loop has on its left."""
+    is_side = np.zeros(len(edges.twins), np.bool_)
+    is_side[sides] = is_side[edges.twins[sides]] = True
+    inner = np.flatnonzero(~is_side & (edges.twins > np.arange(len(edges.twins))))
+    n_triangles = len(edges.twins) // 3
+    pairs = sp.coo_array((np.ones(len(inner)), (inner // 3, edges.twins[inner] // 3)), shape=(n_triangles,) * 2)
+    part = sp.csgraph.connected_components(pairs, directed=False)[1]
+    astray = np.flatnonzero(part[sides // 3] != part[sides[0] // 3])
+    if len(astray):
+        loop = _loop_of(polygons, astray[0])
+        raise InputError(f"loop {loop} lies outside loop 0 or in another hole; holes lie side by side inside loop 0")
+    return np.asarray(part == part[sides[0] // 3])

@@ -1,0 +1,7 @@
+"""Read and write fitted surfaces and the loops that trim them: CAD files, and JSON that keeps every bit."""
+
+from .cad import CAD_SUFFIXES, read_cad, write_cad
+from .surface_json import read_surface_json, write_surface_json
+from .units import MILLIMETRES
+
+__all__ = ["CAD_SUFFIXES", "MILLIMETRES", "read_cad", "read_surface_json", "write_cad", "write_surface_json"]
