@@ -1,7 +1,7 @@
 """B-spline surfaces refined until a tolerance is met: knots where points are out of it, parameters corrected."""
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TypeAlias
 
 import numpy as np
@@ -155,15 +155,18 @@ def fit_bspline(
     levels: list[Level] = []
     best_level = 0
     while knots is not None:
-        surface, feet, level, is_out = _fit_level(points, uv, knots, is_held, rules)
-        levels.append(level)
-        if len(levels) == 1 or level.largest <= tolerance or level.held_out < GAIN * levels[best_level].held_out:
-            best, best_level = Fit(surface, feet, levels, level.largest <= tolerance, False), len(levels) - 1
-        is_noise = len(levels) - 1 - best_level >= HOPELESS
-        if best.is_met or is_noise:
-            break
-        knots = _halved(knots, uv, is_out, rules, most)
-    return _with_all(points, replace(best, is_noise=is_noise), levels[best_level].fairness, rules)
+        sampled = _fit_sample(points, uv, knots, is_held, rules)
+        levels.append(sampled.level)
+        met = sampled.level.largest <= tolerance
+        if len(levels) == 1 or met or sampled.level.held_out < GAIN * levels[best_level].held_out:
+            best, best_level = sampled, len(levels) - 1
+        is_noise = not met and len(levels) - 1 - best_level >= HOPELESS
+        knots = None if is_noise else _halved(knots, uv, sampled, rules, most)
+        if met or knots is None:
+            fit = _fit_all(points, uv, best, levels, is_noise, rules)
+            if fit.is_met:
+                break
+    return fit
 
 
 _Knots: TypeAlias = tuple[Floats, Floats]
@@ -222,27 +225,52 @@ def _thinned(rows: Indices, n: int) -> Indices:
     return rows[:: max(1, len(rows) // n)]
 
 
-def _fit_level(
-    points: Points, uv: UV, knots: _Knots, is_held: Mask, rules: _Rules
-) -> tuple[BSplineSurface, UV, Level, Mask]:
-    """Fit with given knots, and correct the parameters."""
+@dataclass(frozen=True, slots=True, eq=False)
+class _Sampled:
+    """A surface fitted to a sample of the points: as many as its control points need."""
+
+    surface: BSplineSurface
+    level: Level
+    rows: Indices
+    is_out: Mask
+
+
+def _fit_sample(points: Points, uv: UV, knots: _Knots, is_held: Mask, rules: _Rules) -> _Sampled:
+    """Fit with given knots, choose the fairness, and judge by the sample and by points held out."""
     enough = max(LEAST_SAMPLE, SHARE * _n_control(knots, rules.degree))
     rows, test = _thinned(np.flatnonzero(~is_held), enough), _thinned(np.flatnonzero(is_held), enough)
-    uv = uv.copy()
 
-    def fitted(fairness: float, weights: Floats | None = None) -> BSplineSurface:
-        return least_squares(points[rows], uv[rows], *knots, degree=rules.degree, weights=weights, fairness=fairness)
+    def fitted(fairness: float, feet: UV, weights: Floats | None = None) -> BSplineSurface:
+        return least_squares(points[rows], feet, *knots, degree=rules.degree, weights=weights, fairness=fairness)
 
-    trials = {fairness: fitted(fairness) for fairness in rules.fairness}
+    trials = {fairness: fitted(fairness, uv[rows]) for fairness in rules.fairness}
     fairness = min(trials, key=lambda f: Deviation(_distances(trials[f], points[test], uv[test])[1]).rms)
     surface = trials[fairness]
     for _ in range(CORRECTIONS):
-        uv[rows], distance = _distances(surface, points[rows], uv[rows])
-        surface = fitted(fairness, rules.loss(distance))
-    uv, distance = _distances(surface, points, uv)
-    whole, held = Deviation(distance), Deviation(distance[is_held])
+        feet, distance = _distances(surface, points[rows], uv[rows])
+        surface = fitted(fairness, feet, rules.loss(distance))
+    seen = np.concatenate([rows, test])
+    distance = _distances(surface, points[seen], uv[seen])[1]
+    whole, held = Deviation(distance), Deviation(distance[len(rows) :])
     level = Level(surface.n_control, fairness, whole.largest(rules.outliers), whole.rms, held.rms)
-    return surface, uv, level, distance > rules.tolerance
+    return _Sampled(surface, level, seen, distance > rules.tolerance)
+
+
+def _fit_all(points: Points, uv: UV, sampled: _Sampled, levels: list[Level], is_noise: bool, rules: _Rules) -> Fit:
+    """Fit to all points, with the knots and the fairness that were found on a sample."""
+    surface = sampled.surface
+    feet, distance = _distances(surface, points, uv)
+    surface = least_squares(
+        points,
+        feet,
+        surface.knots_u,
+        surface.knots_v,
+        degree=rules.degree,
+        weights=rules.loss(distance),
+        fairness=sampled.level.fairness,
+    )
+    feet, distance = _distances(surface, points, uv)
+    return Fit(surface, feet, list(levels), Deviation(distance).largest(rules.outliers) <= rules.tolerance, is_noise)
 
 
 def _distances(surface: BSplineSurface, points: Points, uv: UV) -> tuple[UV, Floats]:
@@ -251,13 +279,13 @@ def _distances(surface: BSplineSurface, points: Points, uv: UV) -> tuple[UV, Flo
     return uv, np.linalg.norm(evaluate(surface, uv) - points, axis=1)
 
 
-def _halved(knots: _Knots, uv: UV, is_out: Mask, rules: _Rules, most: int) -> _Knots | None:
+def _halved(knots: _Knots, uv: UV, sampled: _Sampled, rules: _Rules, most: int) -> _Knots | None:
     """Halve the spans in which too many points are out of tolerance; the worst of them, if there is no room for all."""
     degree, spans, out, splits = rules.degree, [], [], []
-    for knots_of, places in zip(knots, uv.T, strict=True):
+    for knots_of, places in zip(knots, uv[sampled.rows].T, strict=True):
         ends = knots_of[degree:-degree]
         span = np.clip(np.searchsorted(ends, places, side="right") - 1, 0, len(ends) - 2)
-        inside, outside = np.bincount(span, minlength=len(ends) - 1), np.bincount(span, is_out, len(ends) - 1)
+        inside, outside = np.bincount(span, minlength=len(ends) - 1), np.bincount(span, sampled.is_out, len(ends) - 1)
         spans.append(ends)
         out.append(np.where(outside > rules.outliers * inside, outside, 0.0))
     for share in SHARES:
@@ -276,15 +304,3 @@ def _worst(out: Floats, share: float) -> Indices:
     order = np.argsort(-out, kind="stable")[: np.count_nonzero(out)]
     before = np.cumsum(out[order]) - out[order]
     return np.asarray(order[before < share * out.sum()])
-
-
-def _with_all(points: Points, fit: Fit, fairness: float, rules: _Rules) -> Fit:
-    """Fit once more with the points that were held out as well."""
-    surface, uv = fit.surface, fit.uv
-    for _ in range(2):
-        weights = rules.loss(np.linalg.norm(evaluate(surface, uv) - points, axis=1))
-        surface = least_squares(
-            points, uv, surface.knots_u, surface.knots_v, degree=rules.degree, weights=weights, fairness=fairness
-        )
-        uv, distance = _distances(surface, points, uv)
-    return replace(fit, surface=surface, uv=uv, is_met=Deviation(distance).largest(rules.outliers) <= rules.tolerance)

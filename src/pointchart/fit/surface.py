@@ -8,6 +8,7 @@ from ..typing import UV, Floats, Points
 
 HALVINGS = 0.5 ** np.arange(6)  # of a step that leads no nearer
 SETTLED = 1e-12  # of the domain: a smaller step ends the search
+ROUNDING = 1e-14  # of the metric, added so that a singular place has a step
 CONVEX = 0.1  # of the metric: a Hessian below it is left for Gauss's
 
 
@@ -104,22 +105,20 @@ def closest_parameters(surface: Surface, points: Points, uv: UV, *, n_steps: int
 def _newton_step(surface: Surface, points: Points, uv: UV) -> UV:
     """Return the step to the nearest point; along one axis only where the border holds the other."""
     off = evaluate(surface, uv) - points
-    along = np.stack([surface.derivatives(uv, 1, 0), surface.derivatives(uv, 0, 1)], axis=1)
-    gradient = np.einsum("nic,nc->ni", along, off)
-    metric = np.einsum("nic,njc->nij", along, along)
-    second = [_dot(surface.derivatives(uv, du, 2 - du), off) for du in (2, 1, 0)]
-    hessian = metric + np.stack([np.stack(second[:2], axis=1), np.stack(second[1:], axis=1)], axis=1)
-    is_convex = (np.linalg.det(hessian) > CONVEX * np.linalg.det(metric)) & (
-        hessian[:, 0, 0] > CONVEX * metric[:, 0, 0]
-    )
-    hessian[~is_convex] = metric[~is_convex]
+    in_u, in_v = surface.derivatives(uv, 1, 0), surface.derivatives(uv, 0, 1)
+    slope = np.stack([_dot(in_u, off), _dot(in_v, off)], axis=1)
+    e, f, g = _dot(in_u, in_u), _dot(in_u, in_v), _dot(in_v, in_v)
+    a, b, c = (_dot(surface.derivatives(uv, du, 2 - du), off) for du in (2, 1, 0))
+    is_convex = ((e + a) * (g + c) - (f + b) ** 2 > CONVEX * (e * g - f * f)) & (e + a > CONVEX * e)
+    e, f, g = (np.where(is_convex, first + second, first) for first, second in ((e, a), (f, b), (g, c)))
     low, high = surface.domain
-    held = ((uv <= low) & (gradient > 0.0)) | ((uv >= high) & (gradient < 0.0))
-    hessian[held.any(axis=1), [[0], [1]], [[1], [0]]] = 0.0
-    gradient[held] = 0.0
-    trace = np.trace(hessian, axis1=1, axis2=2)
-    hessian[:, [0, 1], [0, 1]] += 1e-14 * trace[:, None] + np.finfo(float).tiny
-    return -np.linalg.solve(hessian, gradient[..., None])[..., 0]
+    held = ((uv <= low) & (slope > 0.0)) | ((uv >= high) & (slope < 0.0))
+    slope[held] = 0.0
+    f = np.where(held.any(axis=1), 0.0, f)
+    least = ROUNDING * (e + g) + np.finfo(np.float64).tiny
+    e, g = e + least, g + least
+    step = np.stack([f * slope[:, 1] - g * slope[:, 0], f * slope[:, 0] - e * slope[:, 1]], axis=1)
+    return np.asarray(step / (e * g - f * f)[:, None])
 
 
 def _square(vectors: Points) -> Floats:
