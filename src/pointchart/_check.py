@@ -116,6 +116,25 @@ def check_uv(uv: ArrayLike, n_points: int) -> UV:
     return array
 
 
+def check_weights(weights: ArrayLike, n_points: int) -> Floats:
+    """Return weights as an (n,) float64 array.
+
+    Raises
+    ------
+    InputError
+        On a wrong number, or weights that are not positive and finite.
+    """
+    array = np.ascontiguousarray(weights, dtype=np.float64)
+    if array.shape != (n_points,):
+        raise InputError(f"weights have shape {array.shape}; ({n_points},) is needed: one for each point")
+    wrong = np.flatnonzero(~((array > 0.0) & (array < np.inf)))
+    if len(wrong):
+        raise InputError(
+            f"{len(wrong)} weights are not positive and finite, the first {array[wrong[0]]:g} at index {wrong[0]}"
+        )
+    return array
+
+
 def check_triangles(triangles: ArrayLike, n_points: int) -> Triangles:
     """Return triangles as (m, 3) int64, or say what is wrong with them.
 

@@ -7,14 +7,15 @@ from numpy.typing import ArrayLike
 
 from ._exact import is_simple
 from .bridges import Bridge
-from .chart import uv_free_boundary
+from .chart import uv_free_boundary, uv_low_stretch
 from .clock import StageClock
 from .errors import InputError, SolveError
 from .fit import Deviation, Fit, fit_bspline, measure_deviation, squares
-from .fit.refine import Loss
+from .fit.knots import MARGIN
+from .fit.loss import Loss
 from .gaps import GapRule, Rims, leave_gaps_open, refuse_second_boundary
 from .mesh import boundary_loops, half_edges
-from .pipeline import Reconstruction, reconstruct
+from .pipeline import LayoutRule, Reconstruction, reconstruct
 from .typing import UV, Points, Triangles
 
 SPIKE = 120.0  # degrees
@@ -54,6 +55,7 @@ def fit_scan(
     loss: Loss = squares,
     outer: ArrayLike | None = None,
     gaps: GapRule | None = None,
+    square: LayoutRule | None = None,
     clock: StageClock | None = None,
 ) -> SurfacedScan:
     """Fit a B-spline surface to a scan of one surface patch, trimmed along its boundary and its gaps.
@@ -67,6 +69,10 @@ def fit_scan(
         See `reconstruct`; but gaps are cut out of the surface, if nothing else is asked for.
     tolerance, outliers, max_control, degree, fairness, loss
         See `fit_bspline`; the tolerance is in the unit of the scan.
+
+    square : callable, optional
+        ``square(points, loop) -> (b, 2)``, as `layout` of `reconstruct`, with corners on the square: the surface is
+        then a four-sided patch without a trimmed border, over parameters of low stretch on the square.
 
     Returns
     -------
@@ -92,9 +98,13 @@ def fit_scan(
     clock = clock or StageClock()
     _check_unit(np.asarray(points, np.float64), tolerance)
     rule = gaps or (cut_gaps_out if loop is None and outer is None else leave_gaps_open)
-    meshed = reconstruct(points, loop, outer=outer, gaps=rule, chart=uv_free_boundary, clock=clock)
+    if square is None:
+        meshed = reconstruct(points, loop, outer=outer, gaps=rule, chart=uv_free_boundary, clock=clock)
+        uv, margin = _turned(meshed.uv), MARGIN
+    else:
+        meshed = reconstruct(points, loop, outer=outer, gaps=rule, layout=square, chart=uv_low_stretch, clock=clock)
+        uv, margin = meshed.uv, 0.0
     cloud = np.asarray(points, np.float64)[meshed.rows]
-    uv = _turned(meshed.uv)
     with clock("fit"):
         fit = fit_bspline(
             cloud,
@@ -104,9 +114,13 @@ def fit_scan(
             max_control=max_control,
             degree=degree,
             fairness=fairness,
+            margin=margin,
             loss=loss,
         )
     loops = _trims(meshed.triangles, uv, fit.uv)
+    if square is not None:
+        (low_u, low_v), (high_u, high_v) = fit.surface.domain
+        loops[0] = np.array([[low_u, low_v], [high_u, low_v], [high_u, high_v], [low_u, high_v]])
     return SurfacedScan(meshed, fit, loops, measure_deviation(cloud, fit.surface, fit.uv))
 
 

@@ -115,7 +115,7 @@ def exact_turn(points, a, b, c):
 
 @njit(cache=True, nogil=True)
 def sign_of_sum(terms):
-    """Return the exact sign of a sum; the terms become an expansion, the last the largest (Shewchuk 1997, theorem 10)."""
+    """Return the exact sign of a sum; its terms become an expansion (Shewchuk 1997, theorem 10)."""
     for n in range(len(terms)):
         total = terms[n]
         for i in range(n):

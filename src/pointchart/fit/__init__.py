@@ -4,8 +4,9 @@ from .bspline import BSplineSurface
 from .clough_tocher import CloughTocherSurface, interpolate_clough_tocher
 from .deviation import Deviation, deviation_table, measure_deviation
 from .least_squares import least_squares
+from .loss import huber, squares
 from .radial import RadialSurface, fit_radial
-from .refine import Fit, Level, fit_bspline, huber, squares
+from .refine import Fit, Level, fit_bspline
 from .surface import Surface, closest_parameters, curvatures, evaluate, normals
 from .tessellate import tessellate
 

@@ -2,24 +2,26 @@
 
 import numpy as np
 import scipy.sparse as sp
+from numpy.typing import ArrayLike
 
+from .._check import check_points, check_uv, check_weights
 from .._kernels import bsplines as kernels
 from ..errors import InputError
 from ..solve import direct
-from ..typing import UV, Floats, Points
+from ..typing import Floats
 from .bspline import BSplineSurface
 
 GAUSS = 5  # nodes a span: exact for products of second derivatives up to degree 6
 
 
 def least_squares(
-    points: Points,
-    uv: UV,
+    points: ArrayLike,
+    uv: ArrayLike,
     knots_u: Floats,
     knots_v: Floats,
     *,
     degree: int = 3,
-    weights: Floats | None = None,
+    weights: ArrayLike | None = None,
     fairness: float = 1e-9,
 ) -> BSplineSurface:
     r"""Fit a B-spline surface with given knots to points at given parameters.
@@ -64,12 +66,14 @@ def least_squares(
     >>> least_squares(plane, uv, clamped, clamped, degree=1, fairness=0.0).control[1, 1].round(12)
     array([2., 2., 2.])
     """
+    points = check_points(points)
+    uv = check_uv(uv, len(points))
+    weights = np.ones(len(points)) if weights is None else check_weights(weights, len(points))
     middle = points.mean(axis=0)
-    weights = np.ones(len(points)) if weights is None else weights
     shape = len(knots_u) - degree - 1, len(knots_v) - degree - 1
     n, width = shape[0] * shape[1], 2 * degree + 1
     band, right = np.zeros((n, width, width)), np.zeros((n, 3))
-    kernels.gather(knots_u, knots_v, degree, np.ascontiguousarray(uv), points - middle, weights, band, right)
+    kernels.gather(knots_u, knots_v, degree, uv, points - middle, weights, band, right)
     normal = _from_band(band, shape)
     if fairness > 0.0:
         energy = thin_plate(knots_u, knots_v, degree)

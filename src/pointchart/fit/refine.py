@@ -1,34 +1,28 @@
 """B-spline surfaces refined until a tolerance is met: knots where points are out of it, parameters corrected."""
 
-from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .._check import check_points, check_uv
+from .._check import check_points, check_uv, check_weights
 from ..errors import InputError
 from ..typing import UV, Floats, Indices, Mask, Points
 from .bspline import BSplineSurface
 from .deviation import Deviation
+from .knots import FIRST_SPANS, MARGIN, Knots, first_knots, halve, n_control
 from .least_squares import least_squares
+from .loss import Loss, squares
 from .surface import closest_parameters, evaluate
 
-MARGIN = 0.02  # of the extent of uv, by which the domain is larger, so that feet find room beyond the outermost points
-FIRST_SPANS = 4  # in the shorter direction
 CORRECTIONS = 3  # of the parameters, before deviations are judged
 STEPS = 2  # of Newton's method in each correction
 HELD_OUT = 10  # every tenth point is held out, to choose the fairness and to know noise from shape
 SHARE = 16  # points a control point that are enough for a level but the last
-MOST_ASPECT = 64.0
 LEAST_SAMPLE = 20_000
-SHARES = (0.8, 0.4, 0.2, 0.1)
 FAIRNESS = (1e-1, 1e-3, 1e-5, 1e-7, 1e-9)
 GAIN = 0.97  # of the RMS of points held out: more control points that bring less follow noise
 HOPELESS = 2  # levels without such a gain, after which refinement ends
-
-Loss: TypeAlias = Callable[[Floats], Floats | None]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -77,17 +71,6 @@ class Fit:
     is_noise: bool
 
 
-def squares(_residuals: Floats) -> Floats | None:
-    """Weigh all points the same: least squares."""
-    return None
-
-
-def huber(residuals: Floats) -> Floats | None:
-    """Weigh points beyond 1.345 standard deviations by the inverse of their distance (Huber 1964); robust scale."""
-    scale = 1.345 * 1.4826 * np.median(residuals)
-    return np.minimum(1.0, scale / np.maximum(residuals, np.finfo(float).tiny)) if scale > 0.0 else None
-
-
 def fit_bspline(
     points: ArrayLike,
     uv: ArrayLike,
@@ -97,6 +80,8 @@ def fit_bspline(
     max_control: int | None = None,
     degree: int = 3,
     fairness: float | None = None,
+    margin: float = MARGIN,
+    weights: ArrayLike | None = None,
     loss: Loss = squares,
 ) -> Fit:
     """Fit a B-spline surface to points at parameters until it is within a tolerance.
@@ -121,6 +106,10 @@ def fit_bspline(
         2 to 5.
     fairness : float, optional
         See `least_squares`; chosen at each level by the points held out, if not given.
+    margin : float
+        Of the shorter extent of uv, by which the domain is larger; 0 for four-sided patches.
+    weights : (n,) array, optional
+        Of the points, positive: such as one over the variance of a scanner's noise.
     loss : callable
         ``loss(residuals) -> weights``: `squares`, or `huber` for scans with many outliers.
 
@@ -136,7 +125,7 @@ def fit_bspline(
 
     References
     ----------
-    Hoschek and Lasser 1993, sections 4.4 and 13.4. Floater and Reimers 2001, section 7.
+    Hoschek and Lasser 1993, sections 4.4 and 13.4. Floater and Reimers 2001, section 6.
 
     Examples
     --------
@@ -149,9 +138,16 @@ def fit_bspline(
     points = check_points(points)
     uv = check_uv(uv, len(points))
     most = _most_control(len(points), tolerance, outliers, max_control, degree)
-    rules = _Rules(degree, tolerance, outliers, FAIRNESS if fairness is None else (fairness,), loss)
+    rules = _Rules(
+        degree,
+        tolerance,
+        outliers,
+        FAIRNESS if fairness is None else (fairness,),
+        np.ones(len(points)) if weights is None else check_weights(weights, len(points)),
+        loss,
+    )
     is_held = np.arange(len(points)) % HELD_OUT == HELD_OUT - 1
-    knots: _Knots | None = _first_knots(uv, degree)
+    knots: Knots | None = first_knots(uv, degree, margin)
     levels: list[Level] = []
     best_level = 0
     while knots is not None:
@@ -161,15 +157,12 @@ def fit_bspline(
         if len(levels) == 1 or met or sampled.level.held_out < GAIN * levels[best_level].held_out:
             best, best_level = sampled, len(levels) - 1
         is_noise = not met and len(levels) - 1 - best_level >= HOPELESS
-        knots = None if is_noise else _halved(knots, uv, sampled, rules, most)
+        knots = None if is_noise else halve(knots, uv[sampled.rows], sampled.is_out, outliers, degree, most)
         if met or knots is None:
             fit = _fit_all(points, uv, best, levels, is_noise, rules)
             if fit.is_met:
                 break
     return fit
-
-
-_Knots: TypeAlias = tuple[Floats, Floats]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -178,6 +171,7 @@ class _Rules:
     tolerance: float
     outliers: float
     fairness: tuple[float, ...]
+    weights: Floats
     loss: Loss
 
 
@@ -197,30 +191,6 @@ def _most_control(n: int, tolerance: float, outliers: float, max_control: int | 
     return min(most, n)
 
 
-def _first_knots(uv: UV, degree: int) -> _Knots:
-    """Lay knots with nearly square spans, half by length and half by number of points."""
-    low, extent = uv.min(axis=0), np.ptp(uv, axis=0)
-    if not extent.min() > 0.0:
-        raise InputError("the parameters lie on one line, so they hold no surface; give one-to-one parameters")
-    n_spans = np.rint(FIRST_SPANS * np.minimum(extent / extent.min(), MOST_ASPECT)).astype(int)
-    margin = MARGIN * extent.min()
-    in_u, in_v = (
-        _clamped(places, low[k] - margin, low[k] + extent[k] + margin, n_spans[k], degree)
-        for k, places in enumerate(uv.T)
-    )
-    return in_u, in_v
-
-
-def _clamped(places: Floats, first: float, last: float, n_spans: int, degree: int) -> Floats:
-    shares = np.linspace(0.0, 1.0, n_spans + 1)[1:-1]
-    inner = 0.5 * (first + shares * (last - first)) + 0.5 * np.quantile(places, shares)
-    return np.concatenate([[first] * (degree + 1), inner, [last] * (degree + 1)])
-
-
-def _n_control(knots: _Knots, degree: int) -> int:
-    return (len(knots[0]) - degree - 1) * (len(knots[1]) - degree - 1)
-
-
 def _thinned(rows: Indices, n: int) -> Indices:
     return rows[:: max(1, len(rows) // n)]
 
@@ -235,12 +205,13 @@ class _Sampled:
     is_out: Mask
 
 
-def _fit_sample(points: Points, uv: UV, knots: _Knots, is_held: Mask, rules: _Rules) -> _Sampled:
+def _fit_sample(points: Points, uv: UV, knots: Knots, is_held: Mask, rules: _Rules) -> _Sampled:
     """Fit with given knots, choose the fairness, and judge by the sample and by points held out."""
-    enough = max(LEAST_SAMPLE, SHARE * _n_control(knots, rules.degree))
+    enough = max(LEAST_SAMPLE, SHARE * n_control(knots, rules.degree))
     rows, test = _thinned(np.flatnonzero(~is_held), enough), _thinned(np.flatnonzero(is_held), enough)
 
-    def fitted(fairness: float, feet: UV, weights: Floats | None = None) -> BSplineSurface:
+    def fitted(fairness: float, feet: UV, loss: Floats | float = 1.0) -> BSplineSurface:
+        weights = rules.weights[rows] * loss
         return least_squares(points[rows], feet, *knots, degree=rules.degree, weights=weights, fairness=fairness)
 
     trials = {fairness: fitted(fairness, uv[rows]) for fairness in rules.fairness}
@@ -266,7 +237,7 @@ def _fit_all(points: Points, uv: UV, sampled: _Sampled, levels: list[Level], is_
         surface.knots_u,
         surface.knots_v,
         degree=rules.degree,
-        weights=rules.loss(distance),
+        weights=rules.weights * rules.loss(distance),
         fairness=sampled.level.fairness,
     )
     feet, distance = _distances(surface, points, uv)
@@ -277,30 +248,3 @@ def _distances(surface: BSplineSurface, points: Points, uv: UV) -> tuple[UV, Flo
     """Return the feet of points and how far they are."""
     uv = closest_parameters(surface, points, uv, n_steps=STEPS)
     return uv, np.linalg.norm(evaluate(surface, uv) - points, axis=1)
-
-
-def _halved(knots: _Knots, uv: UV, sampled: _Sampled, rules: _Rules, most: int) -> _Knots | None:
-    """Halve the spans in which too many points are out of tolerance; the worst of them, if there is no room for all."""
-    degree, spans, out, splits = rules.degree, [], [], []
-    for knots_of, places in zip(knots, uv[sampled.rows].T, strict=True):
-        ends = knots_of[degree:-degree]
-        span = np.clip(np.searchsorted(ends, places, side="right") - 1, 0, len(ends) - 2)
-        inside, outside = np.bincount(span, minlength=len(ends) - 1), np.bincount(span, sampled.is_out, len(ends) - 1)
-        spans.append(ends)
-        out.append(np.where(outside > rules.outliers * inside, outside, 0.0))
-    for share in SHARES:
-        splits = [_worst(o, share) for o in out]
-        in_u, in_v = (
-            np.sort(np.concatenate([k, 0.5 * (e[s] + e[s + 1])])) for k, e, s in zip(knots, spans, splits, strict=True)
-        )
-        finer = in_u, in_v
-        if _n_control(finer, degree) <= most:
-            return finer if any(map(len, splits)) else None
-    return None
-
-
-def _worst(out: Floats, share: float) -> Indices:
-    """Return the spans that hold a share of all points out of tolerance, the worst first."""
-    order = np.argsort(-out, kind="stable")[: np.count_nonzero(out)]
-    before = np.cumsum(out[order]) - out[order]
-    return np.asarray(order[before < share * out.sum()])

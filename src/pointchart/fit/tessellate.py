@@ -8,8 +8,10 @@ from numpy.typing import ArrayLike
 from scipy.spatial import cKDTree
 
 from .._exact import is_simple
-from ..errors import InputError, SolveError
-from ..mesh import HalfEdges, half_edges
+from .._kernels.constrain import constrain
+from ..errors import InputError
+from ..mesh import start_draft
+from ..swaps import swap_to_delaunay
 from ..triangulate import coinciding, triangulate
 from ..typing import UV, Floats, Indices, Mask, Points, Triangles
 from .surface import Surface
@@ -17,16 +19,16 @@ from .surface import Surface
 PROBES = 24  # in each direction, at which the stretch of the surface is measured
 CLEARANCE = 0.71  # in spacings: no point as far as this from the ends of a side is in the circle over the side
 FRAME = 256  # points around all others; the fewer, the more triangles meet in each, which is slow
-MOST_ROUNDS = 60  # of halved sides, after which the loops must touch
+MOST_CUTS = 20_000  # of loops that are very long for their area, and one more for each ten points inside
 
 
 def tessellate(surface: Surface, loops: Sequence[ArrayLike], n: int) -> tuple[Points, Triangles, UV]:
     """Triangulate the part of a surface inside a loop and outside others.
 
     Staggered rows of points fill the parameter plane, u and v being scaled so that rows are as far apart in space as
-    their points, up to the square root of two. Sides of the loops are cut into pieces no longer than that spacing, and
-    halved where Delaunay's criterion does not have them as edges; so the mesh is the constrained Delaunay triangulation
-    of its points. Loops much finer than the spacing make thin triangles along them.
+    their points, up to the square root of two. Sides of the loops are cut into pieces no longer than that spacing; the
+    mesh is the constrained Delaunay triangulation of these points, so it has every piece as an edge, however ragged the
+    loops are. Loops much finer than the spacing make thin triangles along them.
 
     Parameters
     ----------
@@ -34,7 +36,7 @@ def tessellate(surface: Surface, loops: Sequence[ArrayLike], n: int) -> tuple[Po
     loops : sequence of (b, 2) arrays
         Simple polygons in the parameter plane, not closed: the outer one, anticlockwise, then holes, clockwise.
     n : int
-        Points to put inside, about.
+        Points to put inside, about; fewer where that would cut very long loops into more than 20 000 pieces.
 
     Returns
     -------
@@ -45,13 +47,13 @@ def tessellate(surface: Surface, loops: Sequence[ArrayLike], n: int) -> tuple[Po
     Raises
     ------
     InputError
-        If a loop crosses or touches itself, runs the wrong way or lies at the wrong place, or `n` is less than 1.
-    SolveError
-        If loops cross or touch each other.
+        If a loop crosses or touches itself or another one, runs the wrong way or lies at the wrong place, or `n` is
+        less than 1.
 
     References
     ----------
-    Ruppert 1995, A Delaunay refinement algorithm for quality 2-dimensional mesh generation, section 3 (halved sides).
+    Sloan 1993, A fast algorithm for generating constrained Delaunay triangulations. Anglada 1997, An improved
+    incremental algorithm for constructing restricted Delaunay triangulations.
 
     Examples
     --------
@@ -65,18 +67,25 @@ def tessellate(surface: Surface, loops: Sequence[ArrayLike], n: int) -> tuple[Po
     if n < 1:
         raise InputError(f"{n} points cannot fill a surface; ask for at least 1")
     polygons = [np.array(loop, dtype=np.float64) for loop in loops]
-    areas = _check_loops(polygons)
+    area = _check_loops(polygons)
     scale = _scale(surface, polygons[0])
-    spacing = float(np.sqrt(2.0 / np.sqrt(3.0) * areas.sum() * scale.prod() / n))
-    polygons = [_cut(polygon, _pieces(polygon, spacing)) for polygon in (loop * scale for loop in polygons)]
-    plane, triangles = _conforming(polygons, _staggered(polygons, spacing))
-    used, corners = np.unique(triangles, return_inverse=True)
-    uv = plane[used] / scale
-    return surface.derivatives(uv), corners.reshape(-1, 3).astype(np.int64), uv
+    polygons = [polygon * scale for polygon in polygons]
+    # Points that crowd on long thin spikes all meet in a few triangles' corners beside them, which is slow.
+    least = sum(_lengths(polygon).sum() for polygon in polygons) / (MOST_CUTS + n / 10)
+    spacing = float(max(np.sqrt(2.0 / np.sqrt(3.0) * area * scale.prod() / n), least))
+    cut = [_cut(polygon, _pieces(polygon, spacing)) for polygon in polygons]
+    grid = _staggered(cut, spacing)
+    try:
+        plane, triangles = _triangulate_inside(cut, grid)
+    except InputError:
+        # Rounding may move a cut off its side and across one that is as near: such loops stay whole.
+        plane, triangles = _triangulate_inside(polygons, grid)
+    uv = plane / scale
+    return surface.derivatives(uv), triangles, uv
 
 
-def _check_loops(polygons: list[UV]) -> Floats:
-    """Return the area of each loop, negative for holes, or say what is wrong with them."""
+def _check_loops(polygons: list[UV]) -> float:
+    """Return the area inside the loops, or say what is wrong with them."""
     if not polygons:
         raise InputError("there are no loops; give the outer one at least")
     areas = np.empty(len(polygons))
@@ -92,7 +101,7 @@ def _check_loops(polygons: list[UV]) -> Floats:
             raise InputError(f"loop {k} runs {way} has the surface on its left; reverse it")
     if areas.sum() <= 0.0:
         raise InputError(f"{len(areas) - 1} holes are together as large as loop 0; they lie side by side inside it")
-    return areas
+    return float(areas.sum())
 
 
 def _scale(surface: Surface, outer: UV) -> Floats:
@@ -105,16 +114,18 @@ def _scale(surface: Surface, outer: UV) -> Floats:
     return np.array([1.0, 2.0 ** np.clip(np.rint(np.log2(in_v / in_u)), -64, 64)])
 
 
+def _lengths(polygon: UV) -> Floats:
+    return np.asarray(np.linalg.norm(np.roll(polygon, -1, axis=0) - polygon, axis=1))
+
+
 def _pieces(polygon: UV, spacing: float) -> Indices:
-    lengths = np.linalg.norm(np.roll(polygon, -1, axis=0) - polygon, axis=1)
     # A side that rounding makes longer than so many spacings is not cut once more.
-    return np.asarray(np.maximum(np.ceil(lengths / spacing - 1e-9), 1.0), np.int64)
+    return np.asarray(np.maximum(np.ceil(_lengths(polygon) / spacing - 1e-9), 1.0), np.int64)
 
 
 def _cut(polygon: UV, pieces: Indices) -> UV:
     """Cut each side of a polygon into equal pieces; its corners stay as they are."""
-    side = np.repeat(np.arange(len(polygon)), pieces)
-    step = np.arange(len(side)) - np.repeat(np.cumsum(pieces) - pieces, pieces)
+    side, step = _counted(pieces)
     along = (np.roll(polygon, -1, axis=0) - polygon)[side]
     return np.asarray(polygon[side] + (step / pieces[side])[:, None] * along)
 
@@ -160,23 +171,37 @@ def _triangulate_inside(polygons: list[UV], grid: UV) -> tuple[UV, Triangles]:
     plane = np.concatenate([*polygons, grid, _frame(np.concatenate([*polygons, grid]))])
     doubled = coinciding(plane)
     if len(doubled):
-        raise _meeting(polygons, *doubled[(plane[doubled] == plane[doubled[0]]).all(axis=1)][:2].tolist())
+        raise _meeting(polygons, *doubled[:2].tolist())
     draft = start_draft(plane, triangulate(plane, np.arange(len(plane) - FRAME, len(plane))), journal=2)
-    start, obstacle = constrain(draft, _ahead(polygons, len(plane)))
-    if start >= 0:
-        raise _meeting(polygons, start, obstacle)
+    ahead = _ahead(polygons, len(plane))
+    one, other = constrain(draft, ahead)
+    if one >= 0:
+        raise _meeting(polygons, one, other)
     triangles = draft.corners.reshape(-1, 3)
-    edges = half_edges(triangles, len(plane))
-    used, corners = np.unique(triangles[_inside(polygons, edges)], return_inverse=True)
+    is_inside = _inside(polygons, draft.corners, draft.twin, ahead)
+    used, corners = np.unique(triangles[is_inside], return_inverse=True)
     # The sides are the boundary now, which swaps leave alone.
     flat = np.column_stack([plane[used], np.zeros(len(used))])
     return plane[used], swap_to_delaunay(flat, corners.reshape(-1, 3)).triangles
 
 
+def _ahead(polygons: list[UV], n_points: int) -> Indices:
+    """Return the next point of the loop of each point, -1 for those on none; the loops come first."""
+    ahead, start = np.full(n_points, -1, np.int64), 0
+    for polygon in polygons:
+        ahead[start : start + len(polygon)] = start + (np.arange(len(polygon)) + 1) % len(polygon)
+        start += len(polygon)
+    return ahead
+
+
 def _meeting(polygons: list[UV], one: int, other: int) -> InputError:
     first, second = sorted((_loop_of(polygons, one), _loop_of(polygons, other)))
-    loops = f"loops {first} and {second} cross or touch each other" if first != second else f"loop {first} meets itself"
-    return InputError(f"{loops} near {_corner(polygons, one)}; draw them apart")
+    return InputError(f"loops {first} and {second} cross or touch each other; draw them apart")
+
+
+def _loop_of(polygons: list[UV], point: int) -> int:
+    """Return the number of the loop that a point is on."""
+    return int(np.searchsorted(np.cumsum([len(polygon) for polygon in polygons]), point, side="right"))
 
 
 def _frame(plane: UV) -> UV:
@@ -187,28 +212,18 @@ def _frame(plane: UV) -> UV:
     return np.asarray((low + high) / 2.0 + radius * np.column_stack([np.cos(turn), np.sin(turn)]))
 
 
-def _sides(polygons: list[UV], edges: HalfEdges, n_points: int) -> tuple[Indices, Mask]:
-    """Find the half-edge along each side of the loops; return them, and whether they are there."""
-    sizes = [len(polygon) for polygon in polygons]
-    start = np.repeat(np.cumsum(sizes) - sizes, sizes)
-    origins = np.arange(sum(sizes))
-    targets = start + (origins - start + 1) % np.repeat(sizes, sizes)
-    keys, wanted = edges.origins * n_points + edges.targets, origins * n_points + targets
-    order = np.argsort(keys)
-    found = order[np.minimum(np.searchsorted(keys, wanted, sorter=order), len(keys) - 1)]
-    return found, keys[found] == wanted
-
-
-def _inside(polygons: list[UV], edges: HalfEdges, sides: Indices) -> Mask:
+def _inside(polygons: list[UV], corners: Indices, twins: Indices, ahead: Indices) -> Mask:
     """Tell for each triangle whether it is in the part that every loop has on its left."""
-    is_side = np.zeros(len(edges.twins), np.bool_)
-    is_side[sides] = is_side[edges.twins[sides]] = True
-    inner = np.flatnonzero(~is_side & (edges.twins > np.arange(len(edges.twins))))
-    n_triangles = len(edges.twins) // 3
-    pairs = sp.coo_array((np.ones(len(inner)), (inner // 3, edges.twins[inner] // 3)), shape=(n_triangles,) * 2)
+    is_side = ahead[corners] == np.roll(corners.reshape(-1, 3), -1, axis=1).ravel()
+    sides = np.flatnonzero(is_side)
+    is_side[twins[sides]] = True
+    inner = np.flatnonzero(~is_side & (twins > np.arange(len(twins))))
+    n_triangles = len(twins) // 3
+    pairs = sp.coo_array((np.ones(len(inner)), (inner // 3, twins[inner] // 3)), shape=(n_triangles,) * 2)
     part = sp.csgraph.connected_components(pairs, directed=False)[1]
-    astray = np.flatnonzero(part[sides // 3] != part[sides[0] // 3])
+    within = part[sides[corners[sides] == 0][0] // 3]
+    astray = sides[part[sides // 3] != within]
     if len(astray):
-        loop = _loop_of(polygons, astray[0])
+        loop = _loop_of(polygons, corners[astray].min())
         raise InputError(f"loop {loop} lies outside loop 0 or in another hole; holes lie side by side inside loop 0")
-    return np.asarray(part == part[sides[0] // 3])
+    return np.asarray(part == within)
