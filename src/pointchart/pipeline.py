@@ -290,11 +290,16 @@ def _mesh(
 
 
 def _swapped_again(points: Points, stand: _Stand, swap: SwapRule) -> Meshed:
-    """Swap edges of a mesh that stands, but not in gaps that will be open; long edges are no bridges any more."""
+    """Swap edges of a mesh that stands, but not at gaps that will be open; long edges are no bridges any more.
+
+    A swap that knows nothing of the triangles in a gap could make an edge that they have already, so those at its rim
+    stay as they are too.
+    """
     first = stand.meshed.swapped
-    is_kept = np.ones(len(first.triangles), bool)
+    is_at_gap = np.zeros(len(points), bool)
     for patch in stand.rims.patches(stand.opened, first.triangles):
-        is_kept[patch] = False
+        is_at_gap[first.triangles[patch]] = True
+    is_kept = ~is_at_gap[first.triangles].any(axis=1)
     last = swap(points, first.triangles[is_kept])
     triangles = first.triangles.copy()
     triangles[is_kept] = last.triangles
