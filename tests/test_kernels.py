@@ -60,6 +60,11 @@ SWEEP = (np.argsort(X_ENDS.min(axis=1)), X_ENDS.min(axis=1), X_ENDS.max(axis=1))
 CUBICS = interpolate_clough_tocher(SHAPE.points, SHAPE.uv, SHAPE.triangles)
 SPLINES = fit_radial(SHAPE.points, SHAPE.uv, nearby=20)
 
+KNOTS_U = np.array([-1.0, -1, -1, -1, -0.2, 0.3, 0.3, 1, 1, 1, 1])
+KNOTS_V = np.array([-1.0, -1, -1, -1, 0.1, 1, 1, 1, 1])
+CONTROL = np.random.default_rng(5).normal(size=(7, 5, 3))
+WEIGHTS = np.linspace(0.5, 2.0, N)
+
 ASTRAY = int(np.setdiff1d(np.arange(N), SHAPE.boundary)[7])
 
 
@@ -86,6 +91,20 @@ def thinned_out():
 
 
 CASES = {
+    "bsplines.basis": lambda: (KNOTS_U, 3, 4, 0.1, 2, np.zeros((3, 4)), np.zeros((4, 4)), np.zeros((2, 4))),
+    "bsplines.basis_rows": lambda: (KNOTS_U, 3, SHAPE.uv[:, 0].copy(), 1, np.zeros((N, 4)), ints((N, 4))),
+    "bsplines.evaluate": lambda: (KNOTS_U, KNOTS_V, 3, CONTROL, SHAPE.uv, 1, 2, 0, N, np.zeros((N, 3))),
+    "bsplines.find_span": lambda: (KNOTS_U, 3, 0.3),
+    "bsplines.gather": lambda: (
+        KNOTS_U,
+        KNOTS_V,
+        3,
+        SHAPE.uv,
+        SHAPE.points,
+        WEIGHTS,
+        np.zeros((35, 7, 7)),
+        np.zeros((35, 3)),
+    ),
     "clough_tocher.contract": lambda: (SHAPE.points[:10].copy(), 3, 0.2, 0.5, 0.3),
     "clough_tocher.coordinates": lambda: (SHAPE.uv, SHAPE.triangles[5], 0.1, 0.2, np.zeros((3, 3))),
     "clough_tocher.evaluate": lambda: (

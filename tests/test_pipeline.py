@@ -25,7 +25,6 @@ from pointchart import (
     on_square,
     parameterize_scan,
     pipeline,
-    read_scan,
     reciprocal_distance,
     reconstruct,
     shape_preserving,
@@ -575,10 +574,7 @@ def test_gaps_left_open_stay_open_under_other_swaps(swap):
     assert rims[0] == rims[1]
 
 
-def test_gaps_of_a_real_scan_left_open_share_no_edge_with_the_mesh_beside_them(request):
-    file = request.path.parents[2] / "shared" / "data" / "face" / "points.ply"
-    if not file.exists():
-        pytest.skip(f"the real scan is not at {file}")
-    mesh = reconstruct(read_scan(file).points, gaps=leave_gaps_open)
+def test_gaps_of_a_real_scan_left_open_share_no_edge_with_the_mesh_beside_them(scan):
+    mesh = reconstruct(scan("face").points, gaps=leave_gaps_open)
     assert mesh.certificate.is_as_asked
     assert mesh.certificate.holes > 10

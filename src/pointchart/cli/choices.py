@@ -195,13 +195,26 @@ def outer_place(text: str | None, boundary: Path | None = None) -> Floats | None
     return place
 
 
-def amount(option: str, text: str, whole: float) -> float:
-    """Read a number, or a percentage of a whole."""
-    number = text.strip().removesuffix("%")
+def amount(option: str, text: str, *, positive: bool = False, below: float = np.inf) -> Callable[[float], float]:
+    """Read a number, or a percentage; return the function that gives the amount of a whole."""
+    word = text.strip().removesuffix("%")
+    is_share = word != text.strip()
     try:
-        value = float(number) * (whole / 100.0 if number != text.strip() else 1.0)
+        value = float(word) / (100.0 if is_share else 1.0)
     except ValueError:
         raise typer.BadParameter(f"{option} is '{text}'; a number is needed, or one with %, such as 0.1%") from None
-    if not 0.0 <= value < float("inf"):
-        raise typer.BadParameter(f"{option} is '{text}'; it has to be at least 0 and finite")
-    return value
+    if not 0.0 <= value < below or (positive and value == 0.0):
+        least, most = "above 0" if positive else "at least 0", "finite" if below == np.inf else f"below {below:.0%}"
+        raise typer.BadParameter(f"{option} is '{text}'; it has to be {least} and {most}")
+    return lambda whole: value * whole if is_share else value
+
+
+def fairness_weight(text: str) -> float | None:
+    """Return the weight of the thin plate energy; None leaves the choice to the library."""
+    try:
+        weight = None if text == "auto" else float(text)
+    except ValueError:
+        weight = np.nan
+    if weight is not None and not 0.0 <= weight < np.inf:
+        raise typer.BadParameter(f"--fairness is '{text}'; auto is needed, or a finite number from 0, such as 1e-5")
+    return weight

@@ -8,22 +8,24 @@ from typing import Annotated
 import numpy as np
 import typer
 
-from ..errors import points_called
+from ..errors import SolveError, points_called
 from ..fit import huber, squares, tessellate
-from ..io import MESH_SUFFIXES, UV_SUFFIXES, check_output, replacing, write_mesh, write_uv
-from ..report import run_report, writing_json
+from ..io import MESH_SUFFIXES, check_output, replacing, write_mesh, write_uv
+from ..report import boundary_lines, intersection_lines, run_report, writing_json
 from ..surface_io import CAD_SUFFIXES, write_cad, write_surface_json
 from ..surface_io.occ import check_extra
 from ..surface_picture import draw_deviation, draw_reflections
 from ..surface_report import explain_lines, surface_lines, surface_report
 from ..surfacing import SurfacedScan, check_met, fit_scan
+from ..typing import Points
 from . import options as given
-from .choices import GAPS, Holes, Unit, amount, outer_place
-from .inputs import read_inputs
+from .choices import GAPS, Holes, Unit, amount, fairness_weight, outer_place
+from .inputs import Inputs, read_inputs
 from .output import carried, given_options
 from .progress import staged
 
 TESSELLATED = 100_000  # points of the mesh of a surface
+HOLD_DEVIATIONS = (".csv", ".ply", ".npz")
 
 
 def fit(
@@ -39,24 +41,30 @@ def fit(
         ),
     ],
     tolerance: Annotated[
-        str, typer.Option("--tolerance", help="Largest deviation: in the unit of the scan, or in % of its diagonal.")
+        str,
+        typer.Option(
+            "--tolerance", help="Largest deviation, in the unit of the scan, such as 0.05, or in % of its diagonal."
+        ),
     ] = "0.1%",
     outliers: Annotated[
-        str, typer.Option("--outliers", help="Points that may deviate by more: a share, such as 0.005, or in %.")
+        str, typer.Option("--outliers", help="Share of the points that may deviate by more, such as 0.005 or 0.5%.")
     ] = "0.5%",
     max_control_points: Annotated[
         int | None,
-        typer.Option("--max-control-points", min=1, help="At most so many; by default half the number of points."),
+        typer.Option("--max-control-points", min=1, help="Of the surface, at most; by default half as many as points."),
     ] = None,
     degree: Annotated[int, typer.Option("--degree", min=2, max=5, help="Of the surface, in both directions.")] = 3,
     fairness: Annotated[
         str,
-        typer.Option("--fairness", help="Weight of the thin plate energy, such as 1e-5; auto: by points left out."),
+        typer.Option(
+            "--fairness", help="Weight of the thin plate energy, such as 1e-5; auto: chosen by points left out."
+        ),
     ] = "auto",
     robust: Annotated[bool, typer.Option("--robust", help="Give points far off less weight (Huber).")] = False,
-    unit: Annotated[Unit, typer.Option("--unit", help="Unit of the scan, written into CAD files.")] = Unit.mm,
+    unit: Annotated[Unit, typer.Option("--unit", help="Unit of the scan, for STEP, IGES and JSON.")] = Unit.mm,
     best_effort: Annotated[
-        bool, typer.Option("--best-effort", help="Write the best surface where the tolerance is not met.")
+        bool,
+        typer.Option("--best-effort", help="Where the tolerance is not met, write the best surface, and exit with 0."),
     ] = False,
     boundary: given.BoundaryOption = None,
     outer: given.OuterOption = None,
@@ -68,7 +76,9 @@ def fit(
     deviations: Annotated[
         Path | None,
         typer.Option(
-            "--deviations", metavar="FILE", help="Write each point with its u, v and signed deviation: csv, ply, npz."
+            "--deviations",
+            metavar="FILE",
+            help="Write x, y, z, u, v and signed deviation of each point: csv, ply, npz.",
         ),
     ] = None,
     picture: Annotated[
@@ -82,10 +92,10 @@ def fit(
     quiet: given.QuietOption = False,
 ) -> None:
     """Fit a trimmed B-spline surface to a scan of one surface patch, to a tolerance, for CAD."""
-    share, place = amount("--outliers", outliers, 1.0), outer_place(outer, boundary)
-    fair = None if fairness == "auto" else amount("--fairness", fairness, 1.0)
-    beside = [(deviations, UV_SUFFIXES), (picture, (".png",)), (reflections, (".png",)), (report, (".json",))]
-    taken = [scan, out]
+    allowed_of, place = amount("--tolerance", tolerance, positive=True), outer_place(outer, boundary)
+    share, fair = amount("--outliers", outliers, below=1.0)(1.0), fairness_weight(fairness)
+    beside = [(deviations, HOLD_DEVIATIONS), (picture, (".png",)), (reflections, (".png",)), (report, (".json",))]
+    taken = [scan, out, *([boundary] if boundary else [])]
     for path, suffixes in beside:
         if path is not None:
             taken.append(check_output(path, suffixes=suffixes, inputs=taken))
@@ -94,7 +104,7 @@ def fit(
     inputs = read_inputs(
         scan, boundary, None, out=out, suffixes=(*CAD_SUFFIXES, ".json", *MESH_SUFFIXES), component=component
     )
-    allowed = amount("--tolerance", tolerance, float(np.linalg.norm(np.ptp(inputs.points, axis=0))))
+    allowed = allowed_of(_diagonal(inputs.points))
     with staged(quiet) as clock, points_called(inputs.rows):
         surfaced = fit_scan(
             inputs.points,
@@ -109,8 +119,10 @@ def fit(
             gaps=None if holes is None else GAPS[holes],
             clock=clock,
         )
-        if not best_effort:
-            check_met(surfaced, allowed, share)
+    if explain and not quiet:
+        print("\n".join(explain_lines(surfaced)), file=sys.stderr)
+    if not best_effort:
+        _check_met(surfaced, allowed, share)
     rows = inputs.rows[surfaced.reconstruction.rows]
     points = inputs.scan.points[rows]
     is_given = boundary is not None
@@ -118,22 +130,45 @@ def fit(
         inputs.scan.points, inputs.rows, surfaced.reconstruction, clock, given_options(context), boundary_given=is_given
     )
     run["surface"] = surface_report(surfaced, points, allowed, share, unit)
+    shown = surfaced.fit.surface, surfaced.loops
     with ExitStack() as stack, writing_json(report, run):
         # Each file is in its place only when all of them are written.
         if deviations is not None:
-            attributes = carried(inputs, rows) | {"deviation": surfaced.deviation.signed}
-            write_uv(stack.enter_context(replacing(deviations)), surfaced.fit.uv, points=points, attributes=attributes)
+            _write_deviations(stack.enter_context(replacing(deviations)), surfaced, inputs)
         if picture is not None:
             file = stack.enter_context(replacing(picture))
-            draw_deviation(
-                file, surfaced.fit.surface, surfaced.loops, points, surfaced.deviation, allowed, outliers=share
-            )
+            draw_deviation(file, *shown, points, surfaced.deviation, allowed, unit=unit, outliers=share)
         if reflections is not None:
-            draw_reflections(stack.enter_context(replacing(reflections)), surfaced.fit.surface, surfaced.loops)
+            draw_reflections(stack.enter_context(replacing(reflections)), *shown, unit=unit)
         _write_surface(out, surfaced, unit)
     if not quiet:
-        lines = surface_lines(surfaced, allowed, share, unit)
-        print("\n".join([*(explain_lines(surfaced) if explain else []), *lines, str(out)]), file=sys.stderr)
+        lines = boundary_lines(surfaced.reconstruction, points, found=not is_given) + intersection_lines(run)
+        print("\n".join([*lines, *surface_lines(surfaced, allowed, share, unit), str(out)]), file=sys.stderr)
+
+
+def _diagonal(points: Points) -> float:
+    """Return the diagonal of the box around points; what is not finite in them is named later."""
+    with np.errstate(invalid="ignore", over="ignore"):
+        return float(np.hypot.reduce(np.ptp(points, axis=0)))
+
+
+def _check_met(surfaced: SurfacedScan, tolerance: float, outliers: float) -> None:
+    """Check that the tolerance is met, naming the options that help where it is not."""
+    try:
+        check_met(surfaced, tolerance, outliers)
+    except SolveError as unmet:
+        more = "" if surfaced.fit.is_noise else "--max-control-points, "
+        raise SolveError(f"{unmet} ({more}--tolerance, --best-effort)") from None
+
+
+def _write_deviations(path: Path, surfaced: SurfacedScan, inputs: Inputs) -> None:
+    rows, uv, signed = inputs.rows[surfaced.reconstruction.rows], surfaced.fit.uv, surfaced.deviation.signed
+    points = inputs.scan.points[rows]
+    if path.suffix.lower() == ".csv":
+        table = np.column_stack([points, uv, signed])
+        np.savetxt(path, table, fmt="%.17g", delimiter=",", header="x,y,z,u,v,deviation", comments="")
+    else:
+        write_uv(path, uv, points=points, attributes=carried(inputs, rows) | {"deviation": signed})
 
 
 def _write_surface(out: Path, surfaced: SurfacedScan, unit: Unit) -> None:

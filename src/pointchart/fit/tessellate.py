@@ -18,7 +18,8 @@ from .surface import Surface
 
 PROBES = 24  # in each direction, at which the stretch of the surface is measured
 CLEARANCE = 0.71  # in spacings: no point as far as this from the ends of a side is in the circle over the side
-FRAME = 256  # points around all others; the fewer, the more triangles meet in each, which is slow
+FRAME = 256  # points around all others
+OUTSIDE = 10_000  # points around the loops, so that few triangles meet in each; at many the triangulation is slow
 MOST_CUTS = 20_000  # of loops that are very long for their area, and one more for each ten points inside
 
 
@@ -70,11 +71,11 @@ def tessellate(surface: Surface, loops: Sequence[ArrayLike], n: int) -> tuple[Po
     area = _check_loops(polygons)
     scale = _scale(surface, polygons[0])
     polygons = [polygon * scale for polygon in polygons]
-    # Points that crowd on long thin spikes all meet in a few triangles' corners beside them, which is slow.
+    # Thin spikes would otherwise have far more points on them than are asked for.
     least = sum(_lengths(polygon).sum() for polygon in polygons) / (MOST_CUTS + n / 10)
     spacing = float(max(np.sqrt(2.0 / np.sqrt(3.0) * area * scale.prod() / n), least))
     cut = [_cut(polygon, _pieces(polygon, spacing)) for polygon in polygons]
-    grid = _staggered(cut, spacing)
+    grid = np.concatenate([_staggered(cut, spacing), _outside(cut, spacing)])
     try:
         plane, triangles = _triangulate_inside(cut, grid)
     except InputError:
@@ -131,7 +132,7 @@ def _cut(polygon: UV, pieces: Indices) -> UV:
 
 
 def _staggered(polygons: list[UV], spacing: float) -> UV:
-    """Fill the inside of the loops with an equilateral grid that keeps clear of all of them."""
+    """Fill what an odd number of loops is around with an equilateral grid that keeps clear of all of them."""
     starts = np.concatenate(polygons)
     rise = np.sqrt(0.75) * spacing
     low = starts.min(axis=0)
@@ -146,6 +147,14 @@ def _staggered(polygons: list[UV], spacing: float) -> UV:
     grid = low + np.column_stack([(first[which] + step + 0.5 * (row % 2)) * spacing, row * rise])
     distance, _ = cKDTree(starts).query(grid, distance_upper_bound=CLEARANCE * spacing)
     return np.asarray(grid[np.isinf(distance)])
+
+
+def _outside(polygons: list[UV], spacing: float) -> UV:
+    """Fill the outside of the loops with a grid that is no finer than that inside."""
+    low, high = polygons[0].min(axis=0), polygons[0].max(axis=0)
+    low, high = low - 0.25 * (high - low), high + 0.25 * (high - low)
+    coarse = max(spacing, float(np.sqrt((high - low).prod() / OUTSIDE)))
+    return _staggered([*polygons, np.array([low, [high[0], low[1]], high, [low[0], high[1]]])], coarse)
 
 
 def _rows_crossed(start: Floats, end: Floats) -> tuple[Indices, Indices]:
@@ -205,11 +214,10 @@ def _loop_of(polygons: list[UV], point: int) -> int:
 
 
 def _frame(plane: UV) -> UV:
-    """Return a circle of points around all others, so many that none has a side of the outer loop to itself."""
+    """Return an ellipse of points around all others."""
     low, high = plane.min(axis=0), plane.max(axis=0)
     turn = np.arange(FRAME) * 2.0 * np.pi / FRAME
-    radius = 0.75 * np.linalg.norm(high - low)
-    return np.asarray((low + high) / 2.0 + radius * np.column_stack([np.cos(turn), np.sin(turn)]))
+    return np.asarray((low + high) / 2.0 + 0.75 * (high - low) * np.column_stack([np.cos(turn), np.sin(turn)]))
 
 
 def _inside(polygons: list[UV], corners: Indices, twins: Indices, ahead: Indices) -> Mask:
