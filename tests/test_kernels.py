@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from pointchart import _kernels
-from pointchart._kernels import drafts, planes, recover, relocate, rims, sides
+from pointchart._exact import orientation_signs
+from pointchart._kernels import constrain, drafts, planes, recover, relocate, rims, sides
 from pointchart._kernels import half_edges as half_edge_kernels
 from pointchart.fit import fit_radial, interpolate_clough_tocher
 from pointchart.intersections import box_tree
@@ -14,6 +15,7 @@ from pointchart.mesh import half_edges, one_rings, start_draft
 from pointchart.neighbors import nearest
 from pointchart.shapes import disc, relief
 from pointchart.stars import delaunay_star, normals
+from pointchart.triangulate import triangulate
 
 SHAPE = relief(60, seed=3)
 N = len(SHAPE.points)
@@ -65,11 +67,17 @@ KNOTS_V = np.array([-1.0, -1, -1, -1, 0.1, 1, 1, 1, 1])
 CONTROL = np.random.default_rng(5).normal(size=(7, 5, 3))
 WEIGHTS = np.linspace(0.5, 2.0, N)
 
+WITHIN = np.setdiff1d(np.arange(N), SHAPE.boundary)
+FAR = int(WITHIN[0]), int(WITHIN[np.argmax(((SHAPE.uv - SHAPE.uv[WITHIN[0]]) ** 2).sum(axis=1)[WITHIN])])
 ASTRAY = int(np.setdiff1d(np.arange(N), SHAPE.boundary)[7])
 
 
 def draft():
     return start_draft(SHAPE.points, SHAPE.triangles, journal=relocate.JOURNAL)
+
+
+def draft_in_plane():
+    return start_draft(SHAPE.uv, SHAPE.triangles, journal=2)
 
 
 def mixed_draft():
@@ -131,6 +139,14 @@ CASES = {
         1,
         np.zeros((10, 3)),
     ),
+    "constrain.constrain": lambda: (draft_in_plane(), np.where(np.arange(N) == FAR[0], FAR[1], -1)),
+    "constrain.edge_before": lambda: (draft_in_plane(), *FAR),
+    "constrain.exact_turn": lambda: (np.array([[0.1, 0.1], [0.2, 0.2], [0.3, 0.3]]), 0, 1, 2),
+    "constrain.insert_side": lambda: (draft_in_plane(), ints(N) - 1, *FAR),
+    "constrain.sign_of_sum": lambda: (np.array([1e16, 1.0, -1e16, -1.0, 1e-30]),),
+    "constrain.two_product": lambda: (0.1, 0.3),
+    "constrain.two_sum": lambda: (1e16, 1.1),
+    "constrain.unfold": lambda: (draft_in_plane(), int(draft_in_plane().leaving[FAR[0]]), 2),
     "crossings.find_crossing": lambda: (PENTAGRAM, *SWEEP, ints((320, 2))),
     "crossings.turn": lambda: (0.0, 0.0, 1.0, 0.0, 0.5, 1e-300),
     "curvature_swaps.area_vector": lambda: (SHAPE.points, 7, 3, 5),
@@ -433,6 +449,28 @@ def arrays(arguments):
             yield argument
         elif isinstance(argument, tuple):
             yield from arrays(argument)
+
+
+def test_a_far_side_becomes_an_edge_and_no_triangle_turns_over():
+    changed = draft_in_plane()
+    assert constrain.insert_side(changed, ints(N) - 1, *FAR) == -1
+    triangles = changed.corners.reshape(-1, 3)
+    assert np.isin(triangles, FAR).sum(axis=1).tolist().count(2) == 2
+    assert (orientation_signs(SHAPE.uv, triangles) == 1).all()
+
+
+def test_a_side_stops_at_a_point_on_it_and_at_a_side_across_it():
+    places = np.array([[-1.0, -1], [1, -1], [1, 1], [-1, 1], [-0.5, 0], [0.5, 0], [0, 0.0]])
+    ahead = ints(7) - 1
+    ahead[4] = 5
+    for middle, found in ((0.0, [6]), (0.1, [-1])):
+        places[6, 1] = middle
+        mesh = start_draft(places, triangulate(places, np.arange(4)), journal=2)
+        assert constrain.insert_side(mesh, ahead, 4, 5) in found
+    ahead[6] = 1
+    places[6, 1] = 0.2
+    mesh = start_draft(places, triangulate(places, np.arange(4)), journal=2)
+    assert constrain.constrain(mesh, ahead) != (-1, -1)
 
 
 @pytest.mark.parametrize("h", range(9))

@@ -139,7 +139,7 @@ def _diverging(reach: float) -> Any:
     from matplotlib.colors import LinearSegmentedColormap, Normalize
 
     colors = LinearSegmentedColormap.from_list("below and above", BELOW_AND_ABOVE)
-    return ScalarMappable(Normalize(-reach, reach), colors.with_extremes(bad=STONE))
+    return ScalarMappable(Normalize(-reach, reach), colors.with_extremes(bad=tuple(STONE.tolist())))
 
 
 def _panels(layout: Any, *, width_ratios: list[float]) -> tuple[Any, dict[str, Any]]:
@@ -205,11 +205,11 @@ def _figures(
     surface: Surface, deviation: Deviation, tolerance: float, outliers: float, unit: str
 ) -> list[tuple[str, str]]:
     """Return the rows of the table: the figures of the deviation, and how few numbers hold the scan."""
-    *lengths, (within, share) = deviation_table(deviation, outliers, tolerance=tolerance)
+    *lengths, (_, share) = deviation_table(deviation, outliers, tolerance=tolerance)
     rows = [
         (name, f"{_number(figure)} {unit}") for name, figure in lengths if outliers or not name.startswith("max but")
     ]
-    rows.append((f"{within} {unit}", f"{100.0 * share:.2f} %"))
+    rows.append((f"within {_number(tolerance)} {unit}", f"{100.0 * share:.2f} %"))
     n_control = getattr(surface, "n_control", None)  # not every surface has control points
     if n_control:
         rows.append(("control points", f"{n_control:,}"))
@@ -231,7 +231,7 @@ def _marks(tolerance: float) -> list[str]:
 
 
 def _number(x: float) -> str:
-    return f"{x:.3g}".replace("-", "\N{MINUS SIGN}")
+    return f"{x:{'.3g' if abs(x) < 1000.0 or abs(x) >= 1e6 else ',.0f'}}".replace("-", "\N{MINUS SIGN}")
 
 
 def _save(figure: Any, path: Path) -> None:

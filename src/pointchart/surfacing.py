@@ -18,6 +18,7 @@ from .mesh import boundary_loops, half_edges
 from .pipeline import LayoutRule, Reconstruction, reconstruct
 from .typing import UV, Points, Triangles
 
+FREE_MOST = 100_000  # points up to which a free boundary costs minutes at most; beyond, low stretch on the circle
 SPIKE = 120.0  # degrees
 COARSE = 0.1  # of the diagonal: a tolerance beyond it is one in another unit
 
@@ -61,7 +62,8 @@ def fit_scan(
     """Fit a B-spline surface to a scan of one surface patch, trimmed along its boundary and its gaps.
 
     The parameters are those of a free boundary, which keep lengths and angles as well as may be: no corners have to be
-    chosen, spans are nearly square in space, and the fit has its full order of convergence.
+    chosen, spans are nearly square in space, and the fit has its full order of convergence. Scans of more than 100,000
+    points take parameters of low stretch on the circle, which cost less.
 
     Parameters
     ----------
@@ -99,7 +101,8 @@ def fit_scan(
     _check_unit(np.asarray(points, np.float64), tolerance)
     rule = gaps or (cut_gaps_out if loop is None and outer is None else leave_gaps_open)
     if square is None:
-        meshed = reconstruct(points, loop, outer=outer, gaps=rule, chart=uv_free_boundary, clock=clock)
+        chart = uv_free_boundary if len(np.asarray(points)) <= FREE_MOST else uv_low_stretch
+        meshed = reconstruct(points, loop, outer=outer, gaps=rule, chart=chart, clock=clock)
         uv, margin = _turned(meshed.uv), MARGIN
     else:
         meshed = reconstruct(points, loop, outer=outer, gaps=rule, layout=square, chart=uv_low_stretch, clock=clock)
