@@ -8,6 +8,7 @@ EXAMPLES = Path(__file__).parents[1] / "examples"
 
 
 ANSWERS = {
+    "fit_surface": pytest.approx(1.0, abs=0.01),
     "gaps_of_a_scan": 3,
     "mesh_a_scan": pytest.approx(2 * 1696 - 80, abs=12),  # a disc of 1696 points, some 78 of them on the boundary
     "own_boundary": pytest.approx(2 * pi, rel=2e-3),

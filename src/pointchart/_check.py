@@ -107,7 +107,10 @@ def check_uv(uv: ArrayLike, n_points: int) -> UV:
     InputError
         On a wrong shape, a wrong number, or NaN and infinity.
     """
-    array = np.ascontiguousarray(uv, dtype=np.float64)
+    try:
+        array = np.ascontiguousarray(uv, dtype=np.float64)
+    except (TypeError, ValueError) as reason:
+        raise InputError(f"parameters are no array of numbers ({reason}); give u, v for each point") from None
     if array.shape != (n_points, 2):
         raise InputError(f"parameters have shape {array.shape}; ({n_points}, 2) is needed: u, v for each point")
     if not np.isfinite(array).all():

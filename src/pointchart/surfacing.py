@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ._check import check_points
 from ._exact import is_simple
 from .bridges import Bridge
 from .chart import uv_free_boundary, uv_low_stretch
@@ -13,6 +14,7 @@ from .errors import InputError, SolveError
 from .fit import Deviation, Fit, fit_bspline, measure_deviation, squares
 from .fit.knots import MARGIN
 from .fit.loss import Loss
+from .fit.refine import check_tolerance
 from .gaps import GapRule, Rims, leave_gaps_open, refuse_second_boundary
 from .mesh import boundary_loops, half_edges
 from .pipeline import LayoutRule, Reconstruction, reconstruct
@@ -98,16 +100,18 @@ def fit_scan(
     (True, 1, True)
     """
     clock = clock or StageClock()
-    _check_unit(np.asarray(points, np.float64), tolerance)
+    cloud = check_points(points)
+    check_tolerance(tolerance)
+    _check_unit(cloud, tolerance)
     rule = gaps or (cut_gaps_out if loop is None and outer is None else leave_gaps_open)
     if square is None:
-        chart = uv_free_boundary if len(np.asarray(points)) <= FREE_MOST else uv_low_stretch
-        meshed = reconstruct(points, loop, outer=outer, gaps=rule, chart=chart, clock=clock)
+        chart = uv_free_boundary if len(cloud) <= FREE_MOST else uv_low_stretch
+        meshed = reconstruct(cloud, loop, outer=outer, gaps=rule, chart=chart, clock=clock)
         uv, margin = _turned(meshed.uv), MARGIN
     else:
-        meshed = reconstruct(points, loop, outer=outer, gaps=rule, layout=square, chart=uv_low_stretch, clock=clock)
+        meshed = reconstruct(cloud, loop, outer=outer, gaps=rule, layout=square, chart=uv_low_stretch, clock=clock)
         uv, margin = meshed.uv, 0.0
-    cloud = np.asarray(points, np.float64)[meshed.rows]
+    cloud = cloud[meshed.rows]
     with clock("fit"):
         fit = fit_bspline(
             cloud,
@@ -159,8 +163,8 @@ def check_met(surfaced: SurfacedScan, tolerance: float, outliers: float) -> None
 
 
 def _check_unit(points: Points, tolerance: float) -> None:
-    diagonal = float(np.linalg.norm(np.ptp(points, axis=0))) if points.ndim == 2 and len(points) else 0.0
-    if tolerance > COARSE * diagonal > 0.0:
+    diagonal = float(np.linalg.norm(np.ptp(points, axis=0)))
+    if tolerance > COARSE * diagonal:
         raise InputError(
             f"the tolerance of {tolerance:g} is {tolerance / diagonal:.0%} of the scan, {diagonal:.4g} across: is it "
             "in another unit? Give it in the unit of the scan"
@@ -193,6 +197,7 @@ def without_spikes(polygon: UV) -> UV:
     >>> without_spikes(np.array([[0.0, 0], [4, 0], [4, 4], [2, 4], [2, 9], [1.9, 4], [0, 4]])).tolist()
     [[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [2.0, 4.0], [1.9, 4.0], [0.0, 4.0]]
     """
+    polygon = polygon[(polygon != np.roll(polygon, 1, axis=0)).any(axis=1)]
     while len(polygon) > 3:
         ahead = np.roll(polygon, -1, axis=0) - polygon
         behind = np.roll(ahead, 1, axis=0)

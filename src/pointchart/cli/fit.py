@@ -51,7 +51,9 @@ def fit(
     ] = "0.5%",
     max_control_points: Annotated[
         int | None,
-        typer.Option("--max-control-points", min=1, help="Of the surface, at most; by default half as many as points."),
+        typer.Option(
+            "--max-control-points", min=1, help="At most so many, and as many as points; by default half as many."
+        ),
     ] = None,
     degree: Annotated[int, typer.Option("--degree", min=2, max=5, help="Of the surface, in both directions.")] = 3,
     fairness: Annotated[
@@ -70,7 +72,10 @@ def fit(
     outer: given.OuterOption = None,
     holes: Annotated[
         Holes | None,
-        typer.Option("--holes", help="Bridge all gaps of the scan, or cut them out; cut out, if not given."),
+        typer.Option(
+            "--holes",
+            help="Bridge all gaps of the scan, or cut them out; by default cut out unless one may be the boundary.",
+        ),
     ] = None,
     component: given.ComponentOption = None,
     deviations: Annotated[

@@ -10,17 +10,21 @@ from ..typing import UV, Floats, Indices, Mask
 MARGIN = 0.02  # of the shorter extent of uv, by which the domain is larger, so that feet find room outside
 FIRST_SPANS = 4  # in the shorter direction
 MOST_ASPECT = 64.0  # of the spans, for parameters in a narrow strip
+FLAT = 1e-24  # of the larger variance of uv: less is rounding
 SHARES = (0.8, 0.4, 0.2, 0.1)  # of the points out of tolerance, whose spans are halved: less where there is no room
 
 Knots: TypeAlias = tuple[Floats, Floats]
 
 
-def first_knots(uv: UV, degree: int, margin: float) -> Knots:
-    """Lay knots with nearly square spans, half by length and half by number of points."""
+def first_knots(uv: UV, degree: int, margin: float, most: int) -> Knots:
+    """Lay knots with nearly square spans, if control points allow, half by length and half by number of points."""
     low, extent = uv.min(axis=0), np.ptp(uv, axis=0)
-    if not extent.min() > 0.0:
+    spread = np.linalg.eigvalsh(np.cov(uv.T))
+    if not spread[0] > FLAT * spread[1]:
         raise InputError("the parameters lie on one line, so they hold no surface; give one-to-one parameters")
     n_spans = np.rint(FIRST_SPANS * np.minimum(extent / extent.min(), MOST_ASPECT)).astype(int)
+    # Of most control points, those across take up FIRST_SPANS + degree each.
+    n_spans = np.minimum(n_spans, most // (FIRST_SPANS + degree) - degree)
     room = margin * extent.min()
     in_u, in_v = (
         _clamped(places, low[k] - room, low[k] + extent[k] + room, n_spans[k], degree) for k, places in enumerate(uv.T)

@@ -11,7 +11,7 @@ from ..solve import direct
 from ..typing import Floats
 from .bspline import BSplineSurface
 
-GAUSS = 5  # nodes a span: exact for products of second derivatives up to degree 6
+GAUSS = 6  # nodes a span: exact up to degree 11, and products have twice that of the surface
 
 
 def least_squares(

@@ -59,7 +59,7 @@ class Fit:
     levels : list of Level
         From coarse to fine.
     is_met : bool
-        Whether the last level is within the tolerance.
+        Whether the surface is within the tolerance.
     is_noise : bool
         Whether refinement ended because finer knots would follow noise.
     """
@@ -138,6 +138,9 @@ def fit_bspline(
     points = check_points(points)
     uv = check_uv(uv, len(points))
     most = _most_control(len(points), tolerance, outliers, max_control, degree)
+    for name, value in (("fairness", fairness), ("margin", margin)):
+        if value is not None and not 0.0 <= value < np.inf:
+            raise InputError(f"the {name} is {value:g}; it has to be at least 0 and finite")
     rules = _Rules(
         degree,
         tolerance,
@@ -147,22 +150,24 @@ def fit_bspline(
         loss,
     )
     is_held = np.arange(len(points)) % HELD_OUT == HELD_OUT - 1
-    knots: Knots | None = first_knots(uv, degree, margin)
+    knots: Knots | None = first_knots(uv, degree, margin, most)
     levels: list[Level] = []
     best_level = 0
     while knots is not None:
         sampled = _fit_sample(points, uv, knots, is_held, rules)
         levels.append(sampled.level)
-        met = sampled.level.largest <= tolerance
-        if len(levels) == 1 or met or sampled.level.held_out < GAIN * levels[best_level].held_out:
+        is_met = sampled.level.largest <= tolerance
+        if len(levels) == 1 or is_met or sampled.level.held_out < GAIN * levels[best_level].held_out:
             best, best_level = sampled, len(levels) - 1
-        is_noise = not met and len(levels) - 1 - best_level >= HOPELESS
-        knots = None if is_noise else halve(knots, uv[sampled.rows], sampled.is_out, outliers, degree, most)
-        if met or knots is None:
-            fit = _fit_all(points, uv, best, levels, is_noise, rules)
+        is_noise = not is_met and len(levels) - 1 - best_level >= HOPELESS
+        rows, is_out = sampled.rows, sampled.is_out
+        if is_met:
+            fit, is_out = _fit_all(points, uv, best, levels, is_noise, rules)
+            rows = np.arange(len(points))
             if fit.is_met:
-                break
-    return fit
+                return fit
+        knots = None if is_noise else halve(knots, uv[rows], is_out, outliers, degree, most)
+    return _fit_all(points, uv, best, levels, is_noise, rules)[0]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -175,20 +180,27 @@ class _Rules:
     loss: Loss
 
 
-def _most_control(n: int, tolerance: float, outliers: float, max_control: int | None, degree: int) -> int:
-    """Check the numbers; return the largest number of control points."""
+def check_tolerance(tolerance: float) -> None:
+    """Check that a tolerance is positive and finite."""
     if not 0.0 < tolerance < np.inf:
         raise InputError(f"the tolerance is {tolerance:g}; it has to be positive and finite, in the unit of the scan")
+
+
+def _most_control(n: int, tolerance: float, outliers: float, max_control: int | None, degree: int) -> int:
+    """Check the numbers; return the largest number of control points."""
+    check_tolerance(tolerance)
     if not 0.0 <= outliers < 1.0:
         raise InputError(f"the share of outliers is {outliers:g}; it has to be at least 0 and below 1")
-    if not 2 <= degree <= 5:
+    if degree not in (2, 3, 4, 5):
         raise InputError(f"the degree is {degree}; it has to be 2, 3, 4 or 5")
     least = (FIRST_SPANS + degree) ** 2
-    most = n // 2 if max_control is None else max_control
+    most = n // 2 if max_control is None else min(max_control, n)
     if most < least:
-        said = f"{n} points are" if max_control is None else f"{max_control} control points are"
+        said = (
+            f"{max_control} control points are" if max_control is not None and max_control <= n else f"{n} points are"
+        )
         raise InputError(f"{said} too few: the coarsest surface of degree {degree} has {least} control points")
-    return min(most, n)
+    return most
 
 
 def _thinned(rows: Indices, n: int) -> Indices:
@@ -227,21 +239,24 @@ def _fit_sample(points: Points, uv: UV, knots: Knots, is_held: Mask, rules: _Rul
     return _Sampled(surface, level, seen, distance > rules.tolerance)
 
 
-def _fit_all(points: Points, uv: UV, sampled: _Sampled, levels: list[Level], is_noise: bool, rules: _Rules) -> Fit:
-    """Fit to all points, with the knots and the fairness that were found on a sample."""
-    surface = sampled.surface
-    feet, distance = _distances(surface, points, uv)
+def _fit_all(
+    points: Points, uv: UV, sampled: _Sampled, levels: list[Level], is_noise: bool, rules: _Rules
+) -> tuple[Fit, Mask]:
+    """Fit to all points, with the knots and the fairness that were found on a sample; and say which are out.
+
+    The surface of the sample stays, where it meets the tolerance and that of all points does not.
+    """
+    first = sampled.surface
+    feet, distance = _distances(first, points, uv)
+    weights = rules.weights * rules.loss(distance)
+    fairness, degree = sampled.level.fairness, rules.degree
     surface = least_squares(
-        points,
-        feet,
-        surface.knots_u,
-        surface.knots_v,
-        degree=rules.degree,
-        weights=rules.weights * rules.loss(distance),
-        fairness=sampled.level.fairness,
+        points, feet, first.knots_u, first.knots_v, degree=degree, weights=weights, fairness=fairness
     )
-    feet, distance = _distances(surface, points, uv)
-    return Fit(surface, feet, list(levels), Deviation(distance).largest(rules.outliers) <= rules.tolerance, is_noise)
+    tries = [(surface, *_distances(surface, points, uv)), (first, feet, distance)]
+    met = [bool(Deviation(away).largest(rules.outliers) <= rules.tolerance) for _, _, away in tries]
+    surface, feet, distance = tries[1 if met == [False, True] else 0]
+    return Fit(surface, feet, list(levels), any(met), is_noise), distance > rules.tolerance
 
 
 def _distances(surface: BSplineSurface, points: Points, uv: UV) -> tuple[UV, Floats]:

@@ -115,10 +115,11 @@ def _newton_step(surface: Surface, points: Points, uv: UV) -> UV:
     held = ((uv <= low) & (slope > 0.0)) | ((uv >= high) & (slope < 0.0))
     slope[held] = 0.0
     f = np.where(held.any(axis=1), 0.0, f)
-    least = ROUNDING * (e + g) + np.finfo(np.float64).tiny
+    least = ROUNDING * (e + g)
     e, g = e + least, g + least
     step = np.stack([f * slope[:, 1] - g * slope[:, 0], f * slope[:, 0] - e * slope[:, 1]], axis=1)
-    return np.asarray(step / (e * g - f * f)[:, None])
+    area = (e * g - f * f)[:, None]
+    return np.asarray(np.divide(step, area, out=np.zeros_like(step), where=area > 0.0))
 
 
 def _square(vectors: Points) -> Floats:
