@@ -35,6 +35,7 @@ from .curvature_swaps import (
 )
 from .dirichlet import Flattened, minimize_dirichlet
 from .errors import FormatError, InputError, PointchartError, SolveError
+from .fit import BSplineSurface, fit_bspline, fit_radial, interpolate_clough_tocher
 from .gaps import bridge_gaps, leave_gaps_open, refuse_second_boundary
 from .intersections import self_intersections
 from .io import Scan, read_loop, read_scan, write_curves, write_loop, write_mesh, write_uv
@@ -59,6 +60,8 @@ from .relocate import Relocated, mesh_energy, relocate_points, suspect_points
 from .reopen import parameterize_open
 from .solve import Solution, bicgstab, cholesky, conjugate_gradient, direct, multigrid, solve_fixed
 from .stars import delaunay_star, nearest_star, normals, smooth
+from .surface_io import read_cad, read_surface_json, write_cad, write_surface_json
+from .surfacing import SurfacedScan, fit_scan
 from .survey import Survey, survey_scan
 from .swaps import Swapped, keep_edges, swap_to_delaunay
 from .triangulate import triangulate
@@ -66,6 +69,7 @@ from .vicinity import Vicinity, explore
 from .weights import mean_value, reciprocal_distance, shape_preserving, uniform
 
 __all__ = [
+    "BSplineSurface",
     "BoundaryScores",
     "Candidate",
     "Certificate",
@@ -85,6 +89,7 @@ __all__ = [
     "Solution",
     "SolveError",
     "StageClock",
+    "SurfacedScan",
     "Survey",
     "Swapped",
     "Vicinity",
@@ -106,7 +111,11 @@ __all__ = [
     "direct",
     "explore",
     "find_boundary",
+    "fit_bspline",
+    "fit_radial",
+    "fit_scan",
     "hull_test",
+    "interpolate_clough_tocher",
     "keep_edges",
     "l2_stretch",
     "largest_component",
@@ -132,8 +141,10 @@ __all__ = [
     "prepare",
     "quarter_places",
     "radius_ratios",
+    "read_cad",
     "read_loop",
     "read_scan",
+    "read_surface_json",
     "reciprocal_distance",
     "reconstruct",
     "recover_links",
@@ -162,8 +173,10 @@ __all__ = [
     "uv_of_points",
     "uv_on_mesh",
     "vertex_stretches",
+    "write_cad",
     "write_curves",
     "write_loop",
     "write_mesh",
+    "write_surface_json",
     "write_uv",
 ]
