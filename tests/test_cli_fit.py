@@ -178,7 +178,7 @@ def test_the_figures_go_to_stderr_and_the_file_is_named_last(run, cap):
     lines = err.splitlines()
     assert (code, lines[0], lines[-1]) == (0, f"boundary of {len(CAP.boundary)} points, found", "cap.json")
     assert "B-spline surface of degree 3, 7 x 7 control points for 500 points" in lines[1]
-    assert lines[2] == "tolerance 0.02998 mm but for 0.5% outliers: met"
+    assert lines[2] == "tolerance 0.02998 mm but for 0.5 % outliers: met"
     assert {"max", "95 %", "RMS", "mean"} <= {line.split(":")[0].strip() for line in lines[3:]}
     assert run("cap.ply", "-o", "cap.json", "--tolerance", "1%", "--explain", "--quiet") == (0, "")
 
@@ -251,7 +251,7 @@ def test_a_surface_out_of_tolerance_is_written_where_the_best_is_asked_for(run, 
     words = ["--tolerance", 1e-9, "--best-effort", "--report", "run.json"]
     code, err = run("cap.ply", "-o", "cap.json", *words)
     assert code == 0
-    assert "tolerance 1e-09 mm but for 0.5% outliers: NOT met" in err
+    assert "tolerance 1e-09 mm but for 0.5 % outliers: NOT met" in err
     held = strict_json(tmp_path / "run.json")["surface"]
     assert (held["met"], len(read_surface_json(tmp_path / "cap.json")[1])) == (False, 1)
 
@@ -312,7 +312,7 @@ def test_wrong_usage_is_said_before_the_scan_is_read(run, tmp_path, words, sente
         (["--report", "o.json"], "o.json", "o.json: the output is also o.json, which would be lost"),
         (["--picture", "p.jpg"], "o.json", "p.jpg: the suffix '.jpg' cannot be written here; choose one of .png"),
         (["--deviations", "no/d.csv"], "o.json", "no/d.csv: the folder "),
-        (["--tolerance", "200%"], "o.json", "the tolerance of 5.99552 is 200% of the scan, 2.998 across"),
+        (["--tolerance", "200%"], "o.json", "the tolerance of 5.99552 is 2 times the scan, 2.998 across"),
         (["--tolerance", "1e9"], "o.json", "the tolerance of 1e+09 is "),
         (["--max-control-points", "3"], "o.json", "3 control points are too few"),
     ],
@@ -336,7 +336,7 @@ def test_a_boundary_file_is_not_replaced_by_the_deviations(refused, cap, tmp_pat
     [
         (CAP.points[:3], "the scan has 3 points; a surface patch needs at least 4"),
         (shapes.hemisphere(20).points, "no boundary was found"),
-        (shapes.hemisphere(60).points, "60 points are too few"),
+        (shapes.hemisphere(60).points, "30 control points, half as many as points, are too few"),
         (shapes.sphere(400).points, "no boundary was found"),
         (np.zeros((100, 3)), "all 100 points are the same"),
         (np.r_[CAP.points, [[np.nan, 0, 0]]], "1 points are NaN or infinite, the first at index 500"),
@@ -380,3 +380,14 @@ def test_ctrl_c_during_the_fit_ends_with_130_and_leaves_the_old_file(tmp_path):
     assert "Traceback" not in done.stderr
     assert (tmp_path / "s.step").read_text() == "old"
     assert sorted(path.name for path in tmp_path.iterdir()) == ["s.step", "scan.npy"]
+
+
+def test_a_four_sided_patch_has_its_own_border_and_the_corners_that_are_named(run, tmp_path):
+    np.save(tmp_path / "scan.npy", shapes.bent_sheet(90, nx=25, ny=17).points)
+    words = ["--tolerance", "2%", "--domain", "square", "--corners", "0,24,424,400"]
+    assert run("scan.npy", "-o", "o.json", *words)[0] == 0
+    surface, loops, _ = read_surface_json(tmp_path / "o.json")
+    assert [loop.tolist() for loop in loops] == [[[0, 0], [1, 0], [1, 1], [0, 1]]]
+    corners = np.load(tmp_path / "scan.npy")[[0, 24, 424, 400]]
+    nearest = np.linalg.norm(surface.control[[0, 0, -1, -1], [0, -1, -1, 0]][:, None] - corners, axis=2).argmin(axis=1)
+    assert sorted(nearest) == [0, 1, 2, 3]

@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 from scipy.interpolate import BSpline
 from strategies import rotations, seeds
 
+from pointchart import InputError
 from pointchart._kernels.bsplines import find_span
 from pointchart.fit import BSplineSurface, evaluate
 
@@ -173,3 +174,11 @@ def test_any_number_of_parameters_is_evaluated(n):
     square = BSplineSurface(1, np.array([0.0, 0, 1, 1]), np.array([0.0, 0, 1, 1]), corners)
     uv = np.random.default_rng(0).random((n, 2))
     assert np.allclose(evaluate(square, uv)[:, :2], uv, rtol=0, atol=1e-15)
+
+
+def test_control_points_and_orders_that_fit_no_surface_are_refused():
+    clamped = np.array([0.0, 0, 1, 1])
+    with pytest.raises(InputError, match="knots_u has shape"):
+        BSplineSurface(1, clamped, clamped, np.zeros((5, 2, 3)))
+    with pytest.raises(InputError, match="at least 0"):
+        BSplineSurface(1, clamped, clamped, np.zeros((2, 2, 3))).derivatives(np.array([[0.5, 0.5]]), -1, 0)

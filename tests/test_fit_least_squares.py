@@ -280,3 +280,22 @@ def test_noise_falls_as_the_root_of_the_control_points_for_each_point():
     uv, knots = scattered(rng, 8000), even(7)
     surface = least_squares(rng.normal(size=(len(uv), 3)), uv, knots, knots, fairness=0.0)
     assert rms(evaluate(surface, uv)) == pytest.approx(np.sqrt(100 / len(uv)), rel=0.1)
+
+
+@pytest.mark.parametrize(
+    ("knots", "options", "message"),
+    [
+        ([0.0, 0, 0, 0, 1], {}, r"knots_u has shape \(5,\)"),
+        ([0.0, 0, 0, 0, 1, 1, 1, np.nan], {}, "finite knots"),
+        ([0.0, 0, 0, 1, 2, 3, 3, 3], {}, "repeats its knots"),
+        ([0.0, 0, 0, 0, 1, 1, 1, 1], {"fairness": -1.0}, "the fairness is -1"),
+        ([0.0, 0, 0, 0, 1, 1, 1, 1], {"fairness": np.nan}, "the fairness is nan"),
+        ([0.3, 0.3, 0.3, 0.3, 1, 1, 1, 1], {}, "lie beyond knots_u"),
+        ([0.0, 0, 0, 0, 1, 1, 1, 1], {"fairness": 0.0}, "9 points do not determine 16 control points"),
+        ([0.0, 0, 0, 0, 1, 1, 1, 1], {"weights": np.zeros(9)}, "9 weights are not positive"),
+    ],
+)
+def test_knots_and_options_out_of_range_are_refused(knots, options, message):
+    uv = np.array([[i / 2, j / 2] for i in range(3) for j in range(3)])
+    with pytest.raises(InputError, match=message):
+        least_squares(np.column_stack([uv, uv[:, 0]]), uv, np.array(knots), np.array([0.0] * 4 + [1.0] * 4), **options)

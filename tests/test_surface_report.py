@@ -6,6 +6,7 @@ import re
 import numpy as np
 import pytest
 
+from pointchart.chart import uv_free_boundary
 from pointchart.fit import BSplineSurface, Deviation, Fit, Level
 from pointchart.surface_report import explain_lines, surface_lines, surface_report
 from pointchart.surfacing import SurfacedScan
@@ -22,7 +23,7 @@ def surfaced(*, is_met=True, is_noise=False, n_loops=1):
     signed[39] = -0.0625
     surface = BSplineSurface(3, *knots, np.zeros((8, 11, 3)))
     fit = Fit(surface, np.zeros((100, 2)), LEVELS, is_met, is_noise)
-    return SurfacedScan(None, fit, [LOOP] * n_loops, Deviation(signed))
+    return SurfacedScan(None, fit, [LOOP] * n_loops, Deviation(signed), uv_free_boundary)
 
 
 @pytest.mark.parametrize(
@@ -38,7 +39,7 @@ def test_the_lines_name_the_surface_and_what_trims_it(n_loops, words):
 @pytest.mark.parametrize(("is_met", "word"), [(True, "met"), (False, "NOT met")])
 def test_the_lines_say_whether_the_tolerance_is_met_and_give_each_figure(is_met, word):
     lines = surface_lines(surfaced(is_met=is_met), 0.05, 0.01, "mm")
-    assert lines[1] == f"tolerance 0.05 mm but for 1.0% outliers: {word}"
+    assert lines[1] == f"tolerance 0.05 mm but for 1 % outliers: {word}"
     figures = dict(line.strip().split(": ") for line in lines[2:])
     assert float(figures["max"]) == 0.0625
     assert float(figures["max but for 1 %"]) == 0.01
@@ -80,5 +81,7 @@ def test_the_report_is_plain_data_that_comes_back_from_json():
     assert (again["tolerance"], again["outliers"]) == (0.05, 0.01)
     assert (again["met"], again["ended_at_noise"]) == (True, False)
     assert again["deviation"]["max"] == 0.0625
+    assert again["deviation"]["max_but_outliers"] == 0.01
+    assert again["deviation"]["share_within_tolerance"] == 0.99
     assert again["worst_at"] == POINTS[39].tolist()
     assert [level["n_control"] for level in again["levels"]] == [49, 88]

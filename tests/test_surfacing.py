@@ -176,7 +176,9 @@ def test_a_scale_by_a_power_of_two_leaves_every_deviation_as_it_is_to_rounding()
 def test_a_tolerance_in_another_unit_is_refused(unit):
     points = unit * shapes.hemisphere(300).points
     across = diagonal(points)
-    with pytest.raises(InputError, match=rf"^the tolerance of .* is 50% of the scan, {across:.4g} across: is it in an"):
+    with pytest.raises(
+        InputError, match=rf"^the tolerance of .* is 0.5 times the scan, {across:.4g} across: is it in an"
+    ):
         fit_scan(points, tolerance=0.5 * across)
     with pytest.raises(InputError, match="Give it in the unit of the scan"):
         fit_scan(points, tolerance=0.101 * across)
@@ -208,13 +210,14 @@ def test_a_surface_out_of_tolerance_is_refused_with_its_figures_and_the_remedy()
         check_met(missed, 1e-6, 0.005)
     assert str(refusal.value) == (
         f"the surface of {missed.fit.surface.n_control} control points deviates by {off.largest(0.005):.4g} but for "
-        f"0.5% outliers (RMS {off.rms:.4g}), more than the tolerance of 1e-06; allow more control points or a larger "
-        "tolerance, or take the best that there is"
+        f"0.5 % of the points (RMS {off.rms:.4g}), more than the tolerance of 1e-06; allow more control points or "
+        "a larger tolerance, or take the best that there is"
     )
     noisy = replace(missed, fit=replace(missed.fit, is_noise=True))
     held_out = min(level.held_out for level in missed.fit.levels)
+    advice = max(3 * held_out, 1.1 * off.largest(0.005))
     with pytest.raises(
-        SolveError, match=rf"stay {held_out:.3g} away \(RMS\): take a tolerance of about {3 * held_out:.2g}, or"
+        SolveError, match=rf"stay {held_out:.3g} away \(RMS\); take a tolerance of about {advice:.2g}, or"
     ):
         check_met(noisy, 1e-6, 0.005)
     check_met(replace(missed, fit=replace(missed.fit, is_met=True)), 1e-6, 0.005)
@@ -262,3 +265,8 @@ def test_corners_that_coincide_are_no_spikes_and_hide_none():
     left = without_spikes(polygon)
     assert [2, 9] not in left.tolist()
     assert {(0, 0), (4, 0), (4, 4), (0, 4)} <= {tuple(corner) for corner in left.tolist()}
+
+
+def test_a_needle_that_comes_back_to_its_foot_leaves_no_double_corner():
+    needle = np.array([[0.0, 0], [4, 0], [4, 4], [2, 4], [2, 9], [2, 4], [0, 4]])
+    assert without_spikes(needle).tolist() == [[0, 0], [4, 0], [4, 4], [2, 4], [0, 4]]

@@ -109,6 +109,8 @@ def openings(
     mapped = parameterize(points, loop, layout, neighborhoods, weights=weights, solver=solver)
     stretch = _log_stretch(points, mapped, neighborhoods)
     yield Opening(mapped, weights, _n_collapsed(stretch))
+    if np.isnan(stretch).all():
+        return
     stretch = _carried_on(stretch, points, loop, neighborhoods)
     growth = stretch[neighborhoods.indices] - stretch[neighborhoods.rows]
     for power in POWERS:

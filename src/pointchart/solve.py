@@ -19,7 +19,7 @@ MOST_ITERATIONS = 20_000
 DIRECT_LIMIT = 1_000_000
 # Relative: more than any tolerance that is asked for, less than that of no solution at all.
 WORST_RESIDUAL = 0.1
-_ONE_THREAD = Lock()  # the limit on threads holds for the whole process, so solves take turns
+ONE_THREAD = Lock()  # the limit on threads holds for the whole process, so solves take turns
 SMALL = 100
 ROUNDING = 1e-14  # relative residual over which a direct solution is refined
 
@@ -287,7 +287,7 @@ def _krylov(
     for k in range(right.shape[1]):
         steps: list[None] = []
         # Vectors are too short for threads to pay, and waiting for a busy core costs twenty times the work.
-        with _ONE_THREAD, threadpool_limits(1):
+        with ONE_THREAD, threadpool_limits(1):
             column, flag = method(
                 left,
                 right[:, k],

@@ -5,9 +5,16 @@ from typing import Any
 
 import numpy as np
 
+from .chart import ChartRule, uv_free_boundary, uv_low_stretch
 from .fit import Level, deviation_table
 from .surfacing import SurfacedScan
 from .typing import Points
+
+CHARTS: dict[ChartRule, str] = {
+    uv_free_boundary: "with a free boundary, in the unit of the scan",
+    uv_low_stretch: "of low stretch on a convex domain",
+}
+FIGURES = ("max", "max_but_outliers", "percentile_95", "rms", "mean", "share_within_tolerance")
 
 
 def surface_lines(surfaced: SurfacedScan, tolerance: float, outliers: float, unit: str) -> list[str]:
@@ -18,7 +25,7 @@ def surface_lines(surfaced: SurfacedScan, tolerance: float, outliers: float, uni
     lines = [
         f"B-spline surface of degree {surface.degree}, {across} x {along} control points for {n} points "
         f"({n / surface.n_control:.1f} each), trimmed by {_loops(len(surfaced.loops))}",
-        f"tolerance {tolerance:.4g} {unit} but for {outliers:.1%} outliers: {met}",
+        f"tolerance {tolerance:.4g} {unit} but for {100 * outliers:g} % outliers: {met}",
     ]
     figures = deviation_table(surfaced.deviation, outliers, tolerance=tolerance)
     return lines + [f"  {name}: {value:.4g}" for name, value in figures]
@@ -33,7 +40,7 @@ def explain_lines(surfaced: SurfacedScan) -> list[str]:
     if fit.is_noise:
         ended = "finer knots bring points left out of the fit no nearer: they would follow noise"
     return [
-        f"parameters with a free boundary, in the unit of the scan: a domain of {extent}",
+        f"parameters {CHARTS[surfaced.chart]}: a domain of {extent}",
         "level by level, knots halved where points are out of tolerance; fairness by points left out of the fit:",
         *(_level(number, level) for number, level in enumerate(fit.levels, start=1)),
         f"ended because {ended}",
@@ -45,6 +52,7 @@ def surface_report(
 ) -> dict[str, Any]:
     """Return a surface and its deviations as plain data for JSON; `points` are those of the vertices."""
     fit = surfaced.fit
+    figures = deviation_table(surfaced.deviation, outliers, tolerance=tolerance)
     worst = int(np.argmax(np.abs(surfaced.deviation.signed)))
     return {
         "unit": unit,
@@ -57,7 +65,7 @@ def surface_report(
         "outliers": outliers,
         "met": fit.is_met,
         "ended_at_noise": fit.is_noise,
-        "deviation": dict(deviation_table(surfaced.deviation, outliers, tolerance=tolerance)),
+        "deviation": dict(zip(FIGURES, (value for _, value in figures), strict=True)),
         "worst_at": points[worst].tolist(),
         "levels": [asdict(level) for level in fit.levels],
     }

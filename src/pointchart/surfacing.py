@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike
 from ._check import check_points
 from ._exact import is_simple
 from .bridges import Bridge
-from .chart import uv_free_boundary, uv_low_stretch
+from .chart import ChartRule, uv_free_boundary, uv_low_stretch
 from .clock import StageClock
 from .errors import InputError, SolveError
 from .fit import Deviation, Fit, fit_bspline, measure_deviation, squares
@@ -38,12 +38,15 @@ class SurfacedScan:
     loops : list of (b, 2) arrays
         The feet of the boundary, anticlockwise, and of gaps of the scan, clockwise: they trim the surface.
     deviation : Deviation
+    chart : callable
+        What gave the parameters: `uv_free_boundary` or `uv_low_stretch`.
     """
 
     reconstruction: Reconstruction
     fit: Fit
     loops: list[UV]
     deviation: Deviation
+    chart: ChartRule
 
 
 def fit_scan(
@@ -105,11 +108,12 @@ def fit_scan(
     _check_unit(cloud, tolerance)
     rule = gaps or (cut_gaps_out if loop is None and outer is None else leave_gaps_open)
     if square is None:
-        chart = uv_free_boundary if len(cloud) <= FREE_MOST else uv_low_stretch
+        chart: ChartRule = uv_free_boundary if len(cloud) <= FREE_MOST else uv_low_stretch
         meshed = reconstruct(cloud, loop, outer=outer, gaps=rule, chart=chart, clock=clock)
         uv, margin = _turned(meshed.uv), MARGIN
     else:
-        meshed = reconstruct(cloud, loop, outer=outer, gaps=rule, layout=square, chart=uv_low_stretch, clock=clock)
+        chart = uv_low_stretch
+        meshed = reconstruct(cloud, loop, outer=outer, gaps=rule, layout=square, chart=chart, clock=clock)
         uv, margin = meshed.uv, 0.0
     cloud = cloud[meshed.rows]
     with clock("fit"):
@@ -128,7 +132,7 @@ def fit_scan(
     if square is not None:
         (low_u, low_v), (high_u, high_v) = fit.surface.domain
         loops[0] = np.array([[low_u, low_v], [high_u, low_v], [high_u, high_v], [low_u, high_v]])
-    return SurfacedScan(meshed, fit, loops, measure_deviation(cloud, fit.surface, fit.uv))
+    return SurfacedScan(meshed, fit, loops, measure_deviation(cloud, fit.surface, fit.uv), chart)
 
 
 def cut_gaps_out(rims: Rims) -> list[Bridge]:
@@ -152,22 +156,23 @@ def check_met(surfaced: SurfacedScan, tolerance: float, outliers: float) -> None
     if surfaced.fit.is_noise:
         noise = min(level.held_out for level in surfaced.fit.levels)
         remedy = (
-            f"finer knots would follow noise, since points left out of the fit stay {noise:.3g} away (RMS): take a "
-            f"tolerance of about {3.0 * noise:.2g}"
+            f"finer knots would follow noise, or what no point shows: points left out of the fit stay {noise:.3g} away "
+            f"(RMS); take a tolerance of about {max(3.0 * noise, 1.1 * off.largest(outliers)):.2g}"
         )
     raise SolveError(
-        f"the surface of {n_control} control points deviates by {off.largest(outliers):.4g} but for {outliers:.1%} "
-        f"outliers (RMS {off.rms:.4g}), more than the tolerance of {tolerance:.4g}; {remedy}, or take the best that "
-        "there is"
+        f"the surface of {n_control} control points deviates by {off.largest(outliers):.4g} but for "
+        f"{100 * outliers:g} % of the points (RMS {off.rms:.4g}), more than the tolerance of {tolerance:.4g}; "
+        f"{remedy}, or take the best "
+        "that there is"
     )
 
 
 def _check_unit(points: Points, tolerance: float) -> None:
-    diagonal = float(np.linalg.norm(np.ptp(points, axis=0)))
+    diagonal = float(np.hypot.reduce(np.ptp(points, axis=0)))
     if tolerance > COARSE * diagonal:
         raise InputError(
-            f"the tolerance of {tolerance:g} is {tolerance / diagonal:.0%} of the scan, {diagonal:.4g} across: is it "
-            "in another unit? Give it in the unit of the scan"
+            f"the tolerance of {tolerance:g} is {tolerance / diagonal:.2g} times the scan, {diagonal:.4g} across: is "
+            "it in another unit? Give it in the unit of the scan"
         )
 
 
@@ -183,8 +188,10 @@ def _trims(triangles: Triangles, before: UV, feet: UV) -> list[UV]:
     """Return the boundary of a mesh on the surface; before the parameters were corrected, where its feet cross."""
     loops = boundary_loops(half_edges(triangles, len(feet)))
     loops.sort(key=lambda loop: -np.ptp(before[loop], axis=0).max())
-    either = [(without_spikes(feet[loop]), without_spikes(before[loop])) for loop in loops]
-    return [corrected if is_simple(corrected) else first for corrected, first in either]
+    corrected = [without_spikes(feet[loop]) for loop in loops]
+    if all(map(is_simple, corrected)):
+        return corrected
+    return [without_spikes(before[loop]) for loop in loops]
 
 
 def without_spikes(polygon: UV) -> UV:
@@ -197,8 +204,8 @@ def without_spikes(polygon: UV) -> UV:
     >>> without_spikes(np.array([[0.0, 0], [4, 0], [4, 4], [2, 4], [2, 9], [1.9, 4], [0, 4]])).tolist()
     [[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [2.0, 4.0], [1.9, 4.0], [0.0, 4.0]]
     """
-    polygon = polygon[(polygon != np.roll(polygon, 1, axis=0)).any(axis=1)]
     while len(polygon) > 3:
+        polygon = polygon[(polygon != np.roll(polygon, 1, axis=0)).any(axis=1)]
         ahead = np.roll(polygon, -1, axis=0) - polygon
         behind = np.roll(ahead, 1, axis=0)
         cosine = (ahead * behind).sum(axis=1)

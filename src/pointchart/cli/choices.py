@@ -42,6 +42,13 @@ class Domain(StrEnum):
     square = "square"
 
 
+class SurfaceDomain(StrEnum):
+    """Kinds of domains of a fitted surface."""
+
+    free = "free"
+    square = "square"
+
+
 class Spacing(StrEnum):
     """Kinds of spacing along the boundary."""
 
@@ -155,11 +162,11 @@ def weights_rule(weighting: Weighting | None, kind: Neighbors | None) -> WeightS
     return weights.reciprocal_distance if kind in (Neighbors.ball, Neighbors.nearest) else None
 
 
-def corner_names(domain: Domain, corners: str | None) -> list[int] | None:
+def corner_names(domain: Domain | SurfaceDomain, corners: str | None) -> list[int] | None:
     """Return the boundary points named for the corners of the square, if any are."""
     if corners is None:
         return None
-    if domain is Domain.circle:
+    if domain not in (Domain.square, SurfaceDomain.square):
         raise typer.BadParameter("--corners needs --domain square")
     words = corners.split(",")
     if len(words) != 4 or not all(word.strip().isdigit() for word in words):
@@ -170,7 +177,7 @@ def corner_names(domain: Domain, corners: str | None) -> list[int] | None:
 def layout_rule(domain: Domain, spacing: Spacing, corners: Indices | None) -> LayoutRule:
     """Return the function that lays the boundary out as asked for."""
     steps = STEPS[spacing]
-    if domain is Domain.circle:
+    if domain not in (Domain.square, SurfaceDomain.square):
         return lambda points, loop: boundary.on_circle(steps(points, loop))
 
     def square(points: Points, loop: Loop) -> UV:

@@ -19,7 +19,19 @@ from ..surface_report import explain_lines, surface_lines, surface_report
 from ..surfacing import SurfacedScan, check_met, fit_scan
 from ..typing import Points
 from . import options as given
-from .choices import GAPS, Holes, Unit, amount, fairness_weight, outer_place
+from .choices import (
+    GAPS,
+    Domain,
+    Holes,
+    Spacing,
+    SurfaceDomain,
+    Unit,
+    amount,
+    corner_names,
+    fairness_weight,
+    layout_rule,
+    outer_place,
+)
 from .inputs import Inputs, read_inputs
 from .output import carried, given_options
 from .progress import staged
@@ -64,6 +76,13 @@ def fit(
     ] = "auto",
     robust: Annotated[bool, typer.Option("--robust", help="Give points far off less weight (Huber).")] = False,
     unit: Annotated[Unit, typer.Option("--unit", help="Unit of the scan, for STEP, IGES and JSON.")] = Unit.mm,
+    domain: Annotated[
+        SurfaceDomain,
+        typer.Option(
+            "--domain", help="Of the parameters: with a free boundary, trimmed; or square, a four-sided patch."
+        ),
+    ] = SurfaceDomain.free,
+    corners: given.CornersOption = None,
     best_effort: Annotated[
         bool,
         typer.Option("--best-effort", help="Where the tolerance is not met, write the best surface, and exit with 0."),
@@ -99,6 +118,7 @@ def fit(
     """Fit a trimmed B-spline surface to a scan of one surface patch, to a tolerance, for CAD."""
     allowed_of, place = amount("--tolerance", tolerance, positive=True), outer_place(outer, boundary)
     share, fair = amount("--outliers", outliers, below=1.0)(1.0), fairness_weight(fairness)
+    named = corner_names(domain, corners)
     beside = [(deviations, HOLD_DEVIATIONS), (picture, (".png",)), (reflections, (".png",)), (report, (".json",))]
     taken = [scan, out, *([boundary] if boundary else [])]
     for path, suffixes in beside:
@@ -107,7 +127,7 @@ def fit(
     if out.suffix.lower() in CAD_SUFFIXES:
         check_extra(out)
     inputs = read_inputs(
-        scan, boundary, None, out=out, suffixes=(*CAD_SUFFIXES, ".json", *MESH_SUFFIXES), component=component
+        scan, boundary, named, out=out, suffixes=(*CAD_SUFFIXES, ".json", *MESH_SUFFIXES), component=component
     )
     allowed = allowed_of(_diagonal(inputs.points))
     with staged(quiet) as clock, points_called(inputs.rows):
@@ -122,6 +142,9 @@ def fit(
             loss=huber if robust else squares,
             outer=place,
             gaps=None if holes is None else GAPS[holes],
+            square=layout_rule(Domain.square, Spacing.chord, inputs.corners)
+            if domain is SurfaceDomain.square
+            else None,
             clock=clock,
         )
     if explain and not quiet:

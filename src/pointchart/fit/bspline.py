@@ -4,9 +4,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .._check import check_uv
 from .._kernels import bsplines as kernels
 from .._parallel import over_ranges
+from ..errors import InputError
 from ..typing import UV, Floats, Points
+from .knots import check_knots
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -22,6 +25,11 @@ class BSplineSurface:
         Ascending; the first and last of them degree + 1 times.
     control : (a, b, 3) float64
         Control points, in the unit of the scan.
+
+    Raises
+    ------
+    InputError
+        On knots and control points that do not belong together.
 
     References
     ----------
@@ -40,6 +48,13 @@ class BSplineSurface:
     knots_v: Floats
     control: Floats
 
+    def __post_init__(self) -> None:
+        control = self.control
+        if control.ndim != 3 or control.shape[2] != 3 or not np.isfinite(control).all():
+            raise InputError(f"the control points have shape {control.shape}; (a, b, 3) finite numbers are needed")
+        for axis, knots, count in zip("uv", (self.knots_u, self.knots_v), control.shape[:2], strict=True):
+            check_knots(f"knots_{axis}", knots, self.degree, count)
+
     @property
     def n_control(self) -> int:
         """Number of control points."""
@@ -56,7 +71,9 @@ class BSplineSurface:
 
         Beyond the domain the outermost polynomials go on.
         """
-        uv = np.ascontiguousarray(uv, dtype=np.float64)
+        uv = check_uv(uv, len(uv))
+        if min(du, dv) < 0:
+            raise InputError(f"the orders of the derivative are {du} and {dv}; they have to be at least 0")
         knots_u, knots_v, control, out = self.knots_u, self.knots_v, self.control, np.empty((len(uv), 3))
         over_ranges(
             lambda first, last: kernels.evaluate(knots_u, knots_v, self.degree, control, uv, du, dv, first, last, out),

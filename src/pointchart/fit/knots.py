@@ -4,7 +4,7 @@ from typing import TypeAlias
 
 import numpy as np
 
-from ..errors import InputError
+from ..errors import InputError, name_some
 from ..typing import UV, Floats, Indices, Mask
 
 MARGIN = 0.02  # of the shorter extent of uv, by which the domain is larger, so that feet find room outside
@@ -14,6 +14,42 @@ FLAT = 1e-24  # of the larger variance of uv: less is rounding
 SHARES = (0.8, 0.4, 0.2, 0.1)  # of the points out of tolerance, whose spans are halved: less where there is no room
 
 Knots: TypeAlias = tuple[Floats, Floats]
+
+
+def check_knots(name: str, knots: Floats, degree: int, count: int) -> None:
+    """Check that knots make `count` functions of a degree.
+
+    Raises
+    ------
+    InputError
+        On numbers that are not finite, a wrong number of them, or knots that descend.
+    """
+    if degree < 1:
+        raise InputError(f"the degree is {degree}; a surface needs at least 1")
+    if knots.shape != (count + degree + 1,) or count <= degree or not np.isfinite(knots).all():
+        raise InputError(
+            f"{name} has shape {knots.shape}; {count} control points of degree {degree} need "
+            f"{max(count, degree + 1) + degree + 1} finite knots"
+        )
+    wrong = np.flatnonzero(np.diff(knots) < 0.0)
+    if len(wrong):
+        raise InputError(f"{name} descends after {name_some(wrong)}; sort the knots")
+
+
+def check_clamped(name: str, knots: Floats, degree: int) -> None:
+    """Check that a surface begins and ends with its outermost control points, and is continuous between.
+
+    Raises
+    ------
+    InputError
+        On knots that repeat too often or not often enough.
+    """
+    counts = np.unique(knots, return_counts=True)[1]
+    if counts[0] != degree + 1 or counts[-1] != degree + 1 or (counts[1:-1] > degree).any():
+        raise InputError(
+            f"{name} repeats its knots {name_some(counts)} times; degree {degree} needs {degree + 1} at both ends and "
+            f"at most {degree} between"
+        )
 
 
 def first_knots(uv: UV, degree: int, margin: float, most: int) -> Knots:

@@ -10,6 +10,7 @@ from ..errors import InputError
 from ..solve import direct
 from ..typing import Floats
 from .bspline import BSplineSurface
+from .knots import check_clamped, check_knots
 
 GAUSS = 6  # nodes a span: exact up to degree 11, and products have twice that of the surface
 
@@ -69,6 +70,13 @@ def least_squares(
     points = check_points(points)
     uv = check_uv(uv, len(points))
     weights = np.ones(len(points)) if weights is None else check_weights(weights, len(points))
+    if not 0.0 <= fairness < np.inf:
+        raise InputError(f"the fairness is {fairness:g}; it has to be at least 0 and finite")
+    for name, knots, places in (("knots_u", knots_u, uv[:, 0]), ("knots_v", knots_v, uv[:, 1])):
+        check_knots(name, knots, degree, len(knots) - degree - 1)
+        check_clamped(name, knots, degree)
+        if places.min() < knots[0] or places.max() > knots[-1]:
+            raise InputError(f"parameters from {places.min():g} to {places.max():g} lie beyond {name}; lay wider knots")
     middle = points.mean(axis=0)
     shape = len(knots_u) - degree - 1, len(knots_v) - degree - 1
     n, width = shape[0] * shape[1], 2 * degree + 1
@@ -78,6 +86,10 @@ def least_squares(
     if fairness > 0.0:
         energy = thin_plate(knots_u, knots_v, degree)
         normal = normal + fairness * normal.trace() / energy.trace() * energy
+    elif n > len(points):
+        raise InputError(
+            f"{len(points)} points do not determine {n} control points; use fewer knots or a fairness above 0"
+        )
     elif (bare := np.flatnonzero(normal.diagonal() <= 0.0)).size:
         raise InputError(
             f"{len(bare)} of {n} control points have no scan points, so their place is undetermined; "

@@ -18,7 +18,9 @@ def squares(residuals: Floats) -> Floats:
 
 
 def huber(residuals: Floats) -> Floats:
-    """Weigh points beyond 1.345 standard deviations by the inverse of their distance; robust scale.
+    """Weigh points beyond 1.345 standard deviations by the inverse of their distance; the deviation is a robust one.
+
+    Residuals are distances, so not negative.
 
     References
     ----------

@@ -15,6 +15,7 @@ from ..errors import InputError, SolveError
 from ..intersections import box_tree
 from ..morton import morton_order
 from ..neighbors import search
+from ..solve import ONE_THREAD
 from ..triangulate import coinciding
 from ..typing import UV, Floats, Indices, Points
 
@@ -207,7 +208,7 @@ def _splines(points: Points, members: Indices, centres: Floats, smoothing: float
             coefficients[block], miss[block] = _solve_block(points[members[block]], centres[block], multiple)
 
     # The matrices are too small for threads of the linear algebra to pay: the discs have theirs.
-    with threadpool_limits(1):
+    with ONE_THREAD, threadpool_limits(1):
         over_ranges(solve, n_discs)
     if not miss.max() <= LARGEST_MISS:
         raise _missed(miss, members, centres)

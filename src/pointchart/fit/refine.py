@@ -1,6 +1,6 @@
 """B-spline surfaces refined until a tolerance is met: knots where points are out of it, parameters corrected."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -15,14 +15,15 @@ from .least_squares import least_squares
 from .loss import Loss, squares
 from .surface import closest_parameters, evaluate
 
-CORRECTIONS = 3  # of the parameters, before deviations are judged
-STEPS = 2  # of Newton's method in each correction
-HELD_OUT = 10  # every tenth point is held out, to choose the fairness and to know noise from shape
+CORRECTIONS = 8  # of the parameters, at most, before deviations are judged
+WORTH = 0.95  # of the RMS: a correction that brings less is the last
+STEPS, LAST_STEPS = 2, 20  # of Newton's method in each correction, and at the end
+HELD_OUT = 10  # one point in ten is held out, to choose the fairness and to know noise from shape
 SHARE = 16  # points a control point that are enough for a level but the last
 LEAST_SAMPLE = 20_000
 FAIRNESS = (1e-1, 1e-3, 1e-5, 1e-7, 1e-9)
 GAIN = 0.97  # of the RMS of points held out: more control points that bring less follow noise
-HOPELESS = 2  # levels without such a gain, after which refinement ends
+HOPELESS = 2.0  # times the control points without such a gain, after which refinement ends
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -149,25 +150,32 @@ def fit_bspline(
         np.ones(len(points)) if weights is None else check_weights(weights, len(points)),
         loss,
     )
-    is_held = np.arange(len(points)) % HELD_OUT == HELD_OUT - 1
+    # At random, since scanners deliver rows; with a seed, since the same scan has to give the same surface.
+    shuffled = np.random.default_rng(len(points)).permutation(len(points))
+    n_held = len(points) // HELD_OUT
+    split = shuffled[n_held:], shuffled[:n_held]
     knots: Knots | None = first_knots(uv, degree, margin, most)
     levels: list[Level] = []
-    best_level = 0
-    while knots is not None:
-        sampled = _fit_sample(points, uv, knots, is_held, rules)
-        levels.append(sampled.level)
-        is_met = sampled.level.largest <= tolerance
-        if len(levels) == 1 or is_met or sampled.level.held_out < GAIN * levels[best_level].held_out:
-            best, best_level = sampled, len(levels) - 1
-        is_noise = not is_met and len(levels) - 1 - best_level >= HOPELESS
+    smoothest = nearest = None
+    is_noise = False
+    while knots is not None and not is_noise:
+        sampled = _fit_sample(points, uv, knots, split, rules)
+        level = sampled.level
+        levels.append(level)
+        if nearest is None or level.largest < nearest.level.largest:
+            nearest = sampled
+        if smoothest is None or level.held_out < GAIN * smoothest.level.held_out:
+            smoothest = sampled
         rows, is_out = sampled.rows, sampled.is_out
-        if is_met:
-            fit, is_out = _fit_all(points, uv, best, levels, is_noise, rules)
+        if level.largest <= tolerance:
+            fit, is_out = _fit_all(points, uv, sampled, levels, rules)
             rows = np.arange(len(points))
             if fit.is_met:
                 return fit
-        knots = None if is_noise else halve(knots, uv[rows], is_out, outliers, degree, most)
-    return _fit_all(points, uv, best, levels, is_noise, rules)[0]
+        is_noise = level.n_control >= HOPELESS * smoothest.level.n_control
+        knots = halve(knots, uv[rows], is_out, outliers, degree, most)
+    fit, _ = _fit_all(points, uv, (smoothest if is_noise else nearest) or sampled, levels, rules)
+    return replace(fit, is_noise=is_noise and not fit.is_met)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -196,15 +204,16 @@ def _most_control(n: int, tolerance: float, outliers: float, max_control: int | 
     least = (FIRST_SPANS + degree) ** 2
     most = n // 2 if max_control is None else min(max_control, n)
     if most < least:
-        said = (
-            f"{max_control} control points are" if max_control is not None and max_control <= n else f"{n} points are"
+        said = f"{most} control points" + (", half as many as points," if max_control is None else "")
+        raise InputError(
+            f"{said} are too few: the coarsest surface of degree {degree} has {least}; allow more, up to the {n} "
+            "points, or take a lower degree"
         )
-        raise InputError(f"{said} too few: the coarsest surface of degree {degree} has {least} control points")
     return most
 
 
 def _thinned(rows: Indices, n: int) -> Indices:
-    return rows[:: max(1, len(rows) // n)]
+    return np.sort(rows[:n])
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -217,10 +226,10 @@ class _Sampled:
     is_out: Mask
 
 
-def _fit_sample(points: Points, uv: UV, knots: Knots, is_held: Mask, rules: _Rules) -> _Sampled:
+def _fit_sample(points: Points, uv: UV, knots: Knots, split: tuple[Indices, Indices], rules: _Rules) -> _Sampled:
     """Fit with given knots, choose the fairness, and judge by the sample and by points held out."""
     enough = max(LEAST_SAMPLE, SHARE * n_control(knots, rules.degree))
-    rows, test = _thinned(np.flatnonzero(~is_held), enough), _thinned(np.flatnonzero(is_held), enough)
+    rows, test = (_thinned(part, enough) for part in split)
 
     def fitted(fairness: float, feet: UV, loss: Floats | float = 1.0) -> BSplineSurface:
         weights = rules.weights[rows] * loss
@@ -229,9 +238,13 @@ def _fit_sample(points: Points, uv: UV, knots: Knots, is_held: Mask, rules: _Rul
     trials = {fairness: fitted(fairness, uv[rows]) for fairness in rules.fairness}
     fairness = min(trials, key=lambda f: Deviation(_distances(trials[f], points[test], uv[test])[1]).rms)
     surface = trials[fairness]
+    before = np.inf
     for _ in range(CORRECTIONS):
         feet, distance = _distances(surface, points[rows], uv[rows])
-        surface = fitted(fairness, feet, rules.loss(distance))
+        rms = Deviation(distance).rms
+        if not rms < WORTH * before:
+            break
+        before, surface = rms, fitted(fairness, feet, rules.loss(distance))
     seen = np.concatenate([rows, test])
     distance = _distances(surface, points[seen], uv[seen])[1]
     whole, held = Deviation(distance), Deviation(distance[len(rows) :])
@@ -239,27 +252,25 @@ def _fit_sample(points: Points, uv: UV, knots: Knots, is_held: Mask, rules: _Rul
     return _Sampled(surface, level, seen, distance > rules.tolerance)
 
 
-def _fit_all(
-    points: Points, uv: UV, sampled: _Sampled, levels: list[Level], is_noise: bool, rules: _Rules
-) -> tuple[Fit, Mask]:
+def _fit_all(points: Points, uv: UV, sampled: _Sampled, levels: list[Level], rules: _Rules) -> tuple[Fit, Mask]:
     """Fit to all points, with the knots and the fairness that were found on a sample; and say which are out.
 
     The surface of the sample stays, where it meets the tolerance and that of all points does not.
     """
     first = sampled.surface
-    feet, distance = _distances(first, points, uv)
+    feet, distance = _distances(first, points, uv, LAST_STEPS)
     weights = rules.weights * rules.loss(distance)
     fairness, degree = sampled.level.fairness, rules.degree
     surface = least_squares(
         points, feet, first.knots_u, first.knots_v, degree=degree, weights=weights, fairness=fairness
     )
-    tries = [(surface, *_distances(surface, points, uv)), (first, feet, distance)]
+    tries = [(surface, *_distances(surface, points, uv, LAST_STEPS)), (first, feet, distance)]
     met = [bool(Deviation(away).largest(rules.outliers) <= rules.tolerance) for _, _, away in tries]
     surface, feet, distance = tries[1 if met == [False, True] else 0]
-    return Fit(surface, feet, list(levels), any(met), is_noise), distance > rules.tolerance
+    return Fit(surface, feet, list(levels), any(met), False), distance > rules.tolerance
 
 
-def _distances(surface: BSplineSurface, points: Points, uv: UV) -> tuple[UV, Floats]:
+def _distances(surface: BSplineSurface, points: Points, uv: UV, n_steps: int = STEPS) -> tuple[UV, Floats]:
     """Return the feet of points and how far they are."""
-    uv = closest_parameters(surface, points, uv, n_steps=STEPS)
+    uv = closest_parameters(surface, points, uv, n_steps=n_steps)
     return uv, np.linalg.norm(evaluate(surface, uv) - points, axis=1)

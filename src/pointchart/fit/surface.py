@@ -4,6 +4,7 @@ from typing import Protocol
 
 import numpy as np
 
+from .._check import check_uv
 from ..typing import UV, Floats, Points
 
 HALVINGS = 0.5 ** np.arange(6)  # of a step that leads no nearer
@@ -82,7 +83,8 @@ def closest_parameters(surface: Surface, points: Points, uv: UV, *, n_steps: int
     ----------
     Hoschek and Lasser 1993, section 4.4 (parameter correction). Piegl and Tiller 1997, section 6.1.
     """
-    uv = np.clip(uv, *surface.domain)
+    points = np.asarray(points, np.float64)
+    uv = np.clip(check_uv(uv, len(points)), *surface.domain)
     square = _square(evaluate(surface, uv) - points)
     moving = np.arange(len(points))
     for _ in range(n_steps):
@@ -90,13 +92,15 @@ def closest_parameters(surface: Surface, points: Points, uv: UV, *, n_steps: int
             break
         at = uv[moving]
         step = _newton_step(surface, points[moving], at)
+        left = np.arange(len(moving))  # without a gain so far
         for size in HALVINGS:
-            there = np.clip(at + size * step, *surface.domain)
-            nearer = _square(evaluate(surface, there) - points[moving])
-            gains = nearer < square[moving]
-            uv[moving[gains]], square[moving[gains]] = there[gains], nearer[gains]
-            step[gains] = 0.0
-            if gains.all():
+            there = np.clip(at[left] + size * step[left], *surface.domain)
+            rows = moving[left]
+            nearer = _square(evaluate(surface, there) - points[rows])
+            gains = nearer < square[rows]
+            uv[rows[gains]], square[rows[gains]] = there[gains], nearer[gains]
+            left = left[~gains]
+            if len(left) == 0:
                 break
         moving = moving[np.abs(uv[moving] - at).max(axis=1) > SETTLED * np.ptp(surface.domain, axis=0).max()]
     return uv

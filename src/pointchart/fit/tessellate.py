@@ -109,7 +109,9 @@ def _scale(surface: Surface, outer: UV) -> Floats:
     """Return 1 and the mean stretch in v over that in u, to the nearest power of two: so no digit is lost."""
     low, high = outer.min(axis=0), outer.max(axis=0)
     probes = np.stack(np.meshgrid(*np.linspace(low, high, PROBES).T), axis=-1).reshape(-1, 2)
-    in_u, in_v = (np.linalg.norm(surface.derivatives(probes, *order), axis=1).mean() for order in ((1, 0), (0, 1)))
+    slopes = [np.linalg.norm(surface.derivatives(probes, *order), axis=1) for order in ((1, 0), (0, 1))]
+    # Some surfaces have no value outside their points.
+    in_u, in_v = (slope[np.isfinite(slope)].sum() for slope in slopes)
     if in_u <= 0.0 or in_v <= 0.0:
         return np.ones(2)
     return np.array([1.0, 2.0 ** np.clip(np.rint(np.log2(in_v / in_u)), -64, 64)])

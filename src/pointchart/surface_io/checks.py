@@ -7,42 +7,15 @@ from numpy.typing import ArrayLike
 
 from ..errors import InputError, name_some
 from ..fit import BSplineSurface
+from ..fit.knots import check_clamped
 from ..typing import UV, Floats, Mask
 
 
 def check_surface(surface: BSplineSurface) -> BSplineSurface:
-    """Return a surface whose degree, knots and control points belong together.
-
-    Raises
-    ------
-    InputError
-        On numbers that are not finite, a wrong shape, or knots that descend, are not clamped or break the surface.
-    """
-    p, control = surface.degree, surface.control
-    if p < 1:
-        raise InputError(f"the degree is {p}; a surface needs at least 1")
-    if control.ndim != 3 or control.shape[2] != 3 or not np.isfinite(control).all():
-        raise InputError(f"the control points have shape {control.shape}; (a, b, 3) finite numbers are needed")
-    for axis, knots, count in zip("uv", (surface.knots_u, surface.knots_v), control.shape[:2], strict=True):
-        _check_knots(f"knots_{axis}", knots, p, count)
+    """Return a surface whose knots are clamped, as files hold them."""
+    check_clamped("knots_u", surface.knots_u, surface.degree)
+    check_clamped("knots_v", surface.knots_v, surface.degree)
     return surface
-
-
-def _check_knots(name: str, knots: Floats, degree: int, count: int) -> None:
-    if knots.shape != (count + degree + 1,) or count <= degree or not np.isfinite(knots).all():
-        raise InputError(
-            f"{name} has shape {knots.shape}; {count} control points of degree {degree} need "
-            f"{max(count, degree + 1) + degree + 1} finite knots"
-        )
-    wrong = np.flatnonzero(np.diff(knots) < 0.0)
-    if len(wrong):
-        raise InputError(f"{name} descends after {name_some(wrong)}; sort the knots")
-    counts = np.unique(knots, return_counts=True)[1]
-    if counts[0] != degree + 1 or counts[-1] != degree + 1 or (counts[1:-1] > degree).any():
-        raise InputError(
-            f"{name} repeats its knots {name_some(counts)} times; degree {degree} needs {degree + 1} at both ends and "
-            f"at most {degree} between"
-        )
 
 
 def check_loops(loops: Sequence[ArrayLike], domain: Floats) -> list[UV]:
