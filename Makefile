@@ -18,8 +18,8 @@ help:  ## print this menu
 demo: .venv/run  ## simulate a laser scan, mesh it, print the certificate, write mesh and picture to demo/
 	$(BIN)/pointchart demo -o demo
 
-test: .venv/dev  ## run all tests
-	$(BIN)/pytest
+test: .venv/dev  ## run all tests, in two processes
+	$(BIN)/pytest -n 2
 
 check: .venv/dev  ## format, lint, types, import contracts
 	$(BIN)/ruff format --check .
@@ -31,11 +31,12 @@ format: .venv/dev  ## format and sort imports
 	$(BIN)/ruff format .
 	$(BIN)/ruff check --fix .
 
-bench: .venv/dev  ## reproduce the paper's tables, measure boundaries, hard scans and creases, time the stages
+bench: .venv/dev  ## reproduce the paper's tables, measure boundaries, hard scans, creases and surfaces, time the stages
 	$(BIN)/python benchmarks/paper.py
 	$(BIN)/python benchmarks/boundaries.py
 	$(BIN)/python benchmarks/hard_scans.py
 	$(BIN)/python benchmarks/creases.py
+	$(BIN)/python benchmarks/surfaces.py
 	$(BIN)/python benchmarks/stages.py
 
 docs: .venv/dev  ## draw the pictures of the docs
