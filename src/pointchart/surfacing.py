@@ -18,6 +18,7 @@ from .fit.refine import check_tolerance
 from .gaps import GapRule, Rims, leave_gaps_open, refuse_second_boundary
 from .mesh import boundary_loops, half_edges
 from .pipeline import LayoutRule, Reconstruction, reconstruct
+from .surface_io.checks import signed_area
 from .typing import UV, Points, Triangles
 
 FREE_MOST = 100_000  # points up to which a free boundary costs minutes at most; beyond, low stretch on the circle
@@ -188,10 +189,10 @@ def _trims(triangles: Triangles, before: UV, feet: UV) -> list[UV]:
     """Return the boundary of a mesh on the surface; before the parameters were corrected, where its feet cross."""
     loops = boundary_loops(half_edges(triangles, len(feet)))
     loops.sort(key=lambda loop: -np.ptp(before[loop], axis=0).max())
-    corrected = [without_spikes(feet[loop]) for loop in loops]
-    if all(map(is_simple, corrected)):
-        return corrected
-    return [without_spikes(before[loop]) for loop in loops]
+    either = ([without_spikes(places[loop]) for loop in loops] for places in (feet, before))
+    sound = [[outer, *(hole for hole in holes if signed_area(hole) < 0.0)] for outer, *holes in either]
+    # A gap that is a mere slit may have no area left, and is not cut out then.
+    return sound[0] if len(sound[0]) == len(sound[1]) and all(map(is_simple, sound[0])) else sound[1]
 
 
 def without_spikes(polygon: UV) -> UV:
