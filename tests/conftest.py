@@ -1,6 +1,7 @@
 """Shapes made once a run, and the real scans where they are at hand."""
 
 import os
+import sys
 from functools import cache
 from pathlib import Path
 from typing import NamedTuple
@@ -11,6 +12,7 @@ import trimesh
 from hypothesis import settings
 
 from pointchart import shapes
+from pointchart.cli import main
 
 # Compiled kernels make first examples slow; a fixed order makes failures come back.
 settings.register_profile("steady", deadline=None, derandomize=True)
@@ -43,6 +45,20 @@ def full_disk(monkeypatch):
         raise OSError(28, "No space left on device")
 
     monkeypatch.setattr(os, "replace", fail)
+
+
+@pytest.fixture
+def command_line(monkeypatch, capsys):
+    """Run the command line in this process; return its exit code, stdout and stderr."""
+
+    def call(*words):
+        monkeypatch.setattr(sys, "argv", ["pointchart", *map(str, words)])
+        with pytest.raises(SystemExit) as left:
+            main()
+        out, err = capsys.readouterr()
+        return left.value.code or 0, out, err
+
+    return call
 
 
 @pytest.fixture(scope="session")

@@ -1,12 +1,10 @@
 import os
 import re
-import sys
 
 import numpy as np
 import pytest
 
 from pointchart import InputError, PointchartError, reconstruct, shapes, write_mesh
-from pointchart.cli import main
 
 SQUARE = np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]])
 SHEET = shapes.grid(12, 9)
@@ -31,16 +29,13 @@ def folder(tmp_path, monkeypatch):
 
 
 @pytest.fixture
-def run(folder, monkeypatch, capsys):
-    """Run the command line in this process; return its exit code and stderr."""
+def run(command_line, folder):
+    """Run the command line in an empty folder; return its exit code and stderr."""
 
     def call(*words):
-        monkeypatch.setattr(sys, "argv", ["pointchart", *map(str, words)])
-        with pytest.raises(SystemExit) as left:
-            main()
-        out, err = capsys.readouterr()
+        code, out, err = command_line(*words)
         assert out == ""
-        return left.value.code or 0, err
+        return code, err
 
     return call
 

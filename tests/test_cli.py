@@ -12,7 +12,6 @@ import pytest
 import trimesh
 
 from pointchart import certify, read_loop, read_scan, shapes, write_loop, write_mesh
-from pointchart.cli import main
 
 NO_FACES = np.empty((0, 3), np.int64)
 FAR = shapes.grid(6, 5).points + np.array([0, 0, 50])
@@ -38,18 +37,10 @@ cli.main()
 
 
 @pytest.fixture
-def run(monkeypatch, capsys, tmp_path):
-    """Run the command line in this process, in an empty folder; return its exit code, stdout and stderr."""
+def run(command_line, monkeypatch, tmp_path):
+    """Run the command line in an empty folder; return its exit code, stdout and stderr."""
     monkeypatch.chdir(tmp_path)
-
-    def call(*words):
-        monkeypatch.setattr(sys, "argv", ["pointchart", *map(str, words)])
-        with pytest.raises(SystemExit) as left:
-            main()
-        out, err = capsys.readouterr()
-        return left.value.code or 0, out, err
-
-    return call
+    return command_line
 
 
 @pytest.fixture

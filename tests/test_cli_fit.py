@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 from pointchart import certify, read_scan, shapes, write_loop, write_mesh
-from pointchart.cli import main
 from pointchart.fit import closest_parameters, evaluate
 from pointchart.surface_io import read_cad, read_surface_json
 
@@ -33,17 +32,14 @@ cli.main()
 
 
 @pytest.fixture
-def run(monkeypatch, capsys, tmp_path):
-    """Run `pointchart fit` in this process, in an empty folder; return its exit code and stderr."""
+def run(command_line, monkeypatch, tmp_path):
+    """Run `pointchart fit` in an empty folder; return its exit code and stderr."""
     monkeypatch.chdir(tmp_path)
 
     def call(*words):
-        monkeypatch.setattr(sys, "argv", ["pointchart", "fit", *map(str, words)])
-        with pytest.raises(SystemExit) as left:
-            main()
-        out, err = capsys.readouterr()
+        code, out, err = command_line("fit", *words)
         assert out == ""
-        return left.value.code or 0, err
+        return code, err
 
     return call
 

@@ -90,14 +90,17 @@ def test_the_surface_passes_through_points_whose_parameters_huddle(disc, seed):
     assert np.isfinite(surface.gradients).all()
 
 
+def assert_same(surface, exact, places):
+    for du, dv in ORDERS:
+        assert np.allclose(surface.derivatives(places, du, dv), exact(places, du, dv), rtol=0, atol=1e-9)
+
+
 @settings(max_examples=10)
 @given(planar_discs(), seeds)
 def test_linear_maps_are_reproduced(shape, seed):
     exact = polynomial(seed, 1)
     surface = interpolate_clough_tocher(exact(shape.uv), shape.uv, shape.triangles)
-    places = inside(shape, seed)
-    for du, dv in ORDERS:
-        assert np.allclose(surface.derivatives(places, du, dv), exact(places, du, dv), rtol=0, atol=1e-9)
+    assert_same(surface, exact, inside(shape, seed))
 
 
 @settings(max_examples=10)
@@ -106,9 +109,7 @@ def test_quadratic_maps_are_reproduced_from_exact_gradients(shape, seed):
     exact = polynomial(seed, 2)
     slopes = gradients(exact, shape.uv)
     surface = interpolate_clough_tocher(exact(shape.uv), shape.uv, shape.triangles, gradients=slopes)
-    places = inside(shape, seed)
-    for du, dv in ORDERS:
-        assert np.allclose(surface.derivatives(places, du, dv), exact(places, du, dv), rtol=0, atol=1e-9)
+    assert_same(surface, exact, inside(shape, seed))
 
 
 @settings(max_examples=10)
