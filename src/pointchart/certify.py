@@ -8,6 +8,7 @@ from numpy.typing import ArrayLike
 
 from ._check import check_loop, check_points, check_triangles
 from ._exact import is_simple, orientation_signs
+from .boundary import is_same_loop
 from .errors import InputError
 from .mesh import HalfEdges, boundary_loops, fans, half_edges
 from .neighbors import spacing as local_spacing
@@ -158,6 +159,7 @@ def certify(
     is_manifold = edges.n_overfull == 0 and not (fan_counts > 1).any()
     loops = boundary_loops(edges) if is_manifold else []
     plane = None if uv is None else _checked_uv(uv, len(cloud))
+    asked = None if loop is None else check_loop(loop, len(cloud))
     ends, lengths = edge_lengths(cloud, edges)
     local = (local_spacing(cloud) if spacing is None else spacing)[ends].max(axis=1)
     return Certificate(
@@ -169,7 +171,7 @@ def certify(
         parts=_count_parts(edges, len(cloud)) - int((fan_counts == 0).sum()),
         euler=int((fan_counts > 0).sum()) - n_edges + len(faces),
         boundary_loops=len(loops),
-        boundary_as_given=None if loop is None else _is_same_cycle(loops, check_loop(loop, len(cloud))),
+        boundary_as_given=None if asked is None else any(is_same_loop(found, asked) for found in loops),
         coinciding_uv=None if plane is None else len(coinciding(plane)),
         flat_or_folded_uv=None if plane is None else int((orientation_signs(plane, faces) <= 0).sum()),
         simple_uv_boundary=_bound_simply(plane, loops) if plane is not None and len(loops) == 1 + holes else None,
@@ -215,12 +217,3 @@ def _bound_simply(plane: UV, loops: list[Loop]) -> bool:
     return sorted(directions, reverse=True) == [1] + [-1] * (len(loops) - 1) and all(
         is_simple(plane[loop]) for loop in loops
     )
-
-
-def _is_same_cycle(loops: list[Loop], asked: Loop) -> bool:
-    """Tell whether one of the loops is that asked for, wherever it starts and whichever way it runs."""
-    of_it = [loop for loop in loops if asked[0] in loop]
-    if len(of_it) != 1 or len(of_it[0]) != len(asked):
-        return False
-    turned = np.roll(of_it[0], -int(np.flatnonzero(of_it[0] == asked[0])[0]))
-    return bool(np.array_equal(turned, asked) or np.array_equal(turned[1:], asked[:0:-1]))

@@ -7,7 +7,7 @@ from typing import TypeAlias, cast
 
 from ._exact import orientation_signs
 from .dirichlet import minimize_dirichlet
-from .errors import PointchartError
+from .errors import InputError, PointchartError
 from .mesh import one_rings
 from .parameterize import Parameterization, parameterize, solve_map
 from .quality import l2_stretch, vertex_stretches
@@ -152,5 +152,13 @@ def is_positive(uv: UV, triangles: Triangles) -> bool:
 
 
 def uv_of_points(points: Points, loop: Loop, boundary_uv: UV, meshed: Meshed, solver: Solver) -> Parameterization:
-    """Map the points by their neighbourhoods, as the paper does; triangles may fold."""
+    """Map the points by their neighbourhoods, as the paper does; triangles may fold.
+
+    Raises
+    ------
+    InputError
+        If the mesh was assembled without neighbourhoods.
+    """
+    if meshed.neighborhoods is None or meshed.weights is None:
+        raise InputError("the mesh was made without a map, so it has no parameters of the points; use parameterize")
     return parameterize(points, loop, boundary_uv, meshed.neighborhoods, weights=meshed.weights, solver=solver)

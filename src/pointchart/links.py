@@ -139,23 +139,22 @@ def _agree(star: Neighborhoods) -> Mask:
     return agrees
 
 
-def is_near(links: Links, triangles: Triangles) -> Mask:
+def is_near(links: Neighborhoods, triangles: Triangles) -> Mask:
     """Tell for each link whether its ends are at most two edges apart on a mesh, (nnz,).
 
     Examples
     --------
-    >>> pair = Links(Neighborhoods(np.array([0, 1, 1, 1, 1, 2]), np.array([4, 0])), np.ones(2))
+    >>> pair = Neighborhoods(np.array([0, 1, 1, 1, 1, 2]), np.array([4, 0]))
     >>> is_near(pair, np.array([[0, 1, 2], [2, 1, 3], [2, 3, 4]]))
     array([ True,  True])
     """
-    graph = links.neighborhoods
-    rings = one_rings(triangles, graph.n_points)
-    near = np.empty(len(graph.indices), np.bool_)
+    rings = one_rings(triangles, links.n_points)
+    near = np.empty(len(links.indices), np.bool_)
     over_ranges(
         lambda first, last: within_two_edges(
-            graph.indptr, graph.indices, rings.indptr, rings.indices, first, last, near
+            links.indptr, links.indices, rings.indptr, rings.indices, first, last, near
         ),
-        graph.n_points,
+        links.n_points,
     )
     return near
 

@@ -9,14 +9,14 @@ from numpy.typing import ArrayLike
 from .boundary import Candidate, chord_length_on_circle
 from .bridges import Bridge, find_bridges, open_gaps
 from .certify import Certificate, certify
-from .chart import ChartRule, uv_free_boundary, uv_low_stretch, uv_on_mesh
+from .chart import ChartRule, uv_free_boundary, uv_low_stretch, uv_of_points, uv_on_mesh
 from .clock import StageClock
 from .errors import PointchartError, SolveError, points_called
 from .gaps import GapRule, Rims, bridge_gaps, check_torn, refuse_second_boundary
 from .links import disputed_links, link_stars, tie_down, trusted
 from .neighbors import Neighborhoods, nearest
 from .parameterize import Parameterization, parameterize
-from .refine import Meshed, SwapRule, mesh_by_links, mesh_once
+from .refine import Meshed, SwapRule, mesh_by_agreement, mesh_by_links, mesh_once
 from .solve import Solver, default_solver
 from .stars import nearest_star
 from .survey import Survey, survey_scan
@@ -158,7 +158,7 @@ def reconstruct(
     solver = solver or default_solver(len(survey.cloud.points))
     rule = gaps or (refuse_second_boundary if loop is None and outer is None else bridge_gaps)
     trials = survey.trials[:TRIALS] if outer is None else [survey]
-    stand = _first_that_stands(trials, rule, lambda trial: _mesh(trial, connect, weights, swap, solver, clock))
+    stand = _first_that_stands(trials, rule, lambda trial: _mesh(trial, connect, weights, swap, chart, solver, clock))
     cloud, rim = survey.cloud, stand.survey.loop
     boundary_uv = layout(survey.scan, cloud.rows[rim])
     with points_called(cloud.rows):
@@ -270,17 +270,21 @@ def _mesh(
     connect: Connect | None,
     weights: WeightScheme | None,
     swap: SwapRule,
+    chart: ChartRule,
     solver: Solver,
     clock: StageClock,
 ) -> Meshed:
-    points, rim = survey.cloud.points, survey.loop
+    points, rim, near = survey.cloud.points, survey.loop, survey.vicinity
+    if connect is None and weights is None and swap is not keep_edges and chart is not uv_of_points:
+        assembled = mesh_by_agreement(points, rim, survey.surface, near.star, near.around, clock=clock)
+        if assembled is not None:
+            return assembled
     circle = chord_length_on_circle(points, rim)
     if connect is None and weights is None:
         with clock("neighbours"):
-            as_read = nearest_star(points, survey.vicinity.around)
-            links = tie_down(points, link_stars(survey.vicinity.star, also=as_read), rim)
+            links = tie_down(points, link_stars(near.star, also=nearest_star(points, near.around)), rim)
         if swap is not keep_edges:
-            return mesh_by_links(points, rim, circle, links, survey.vicinity.around, solver=solver, clock=clock)
+            return mesh_by_links(points, rim, circle, links, near.around, solver=solver, clock=clock)
         neighborhoods, scheme = links.neighborhoods, trusted(links)
     else:
         with clock("neighbours"):

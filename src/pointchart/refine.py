@@ -1,8 +1,9 @@
-"""From points to a mesh: map, triangulate, swap; by links of the surface, also recover edges and relocate points."""
+"""From points to a mesh: assembled where stars agree, or by a map, its triangulation and swaps; then mended."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
+from .assemble import assemble
 from .clock import StageClock
 from .links import Links, trusted
 from .neighbors import Neighborhoods
@@ -27,23 +28,27 @@ class Meshed:
 
     Attributes
     ----------
-    neighborhoods : Neighborhoods
-    weights : WeightScheme
-        What the map was made with.
-    first_map : Parameterization
     swapped : Swapped
+    neighborhoods : Neighborhoods or None
+    weights : WeightScheme or None
+        What the map was made with.
+    first_map : Parameterization or None
+        None if the mesh was assembled without a map.
+    n_pockets : int
+        Loops that were closed in assembling.
     n_recovered : int
         Links that were made edges before the swaps.
     n_relocated : int
         Moves of points to other places of the mesh.
     """
 
-    neighborhoods: Neighborhoods
-    weights: WeightScheme
-    first_map: Parameterization
     swapped: Swapped
-    n_recovered: int
-    n_relocated: int
+    neighborhoods: Neighborhoods | None = None
+    weights: WeightScheme | None = None
+    first_map: Parameterization | None = None
+    n_pockets: int = 0
+    n_recovered: int = 0
+    n_relocated: int = 0
 
 
 def mesh_once(
@@ -63,7 +68,21 @@ def mesh_once(
     with clock("triangulate"):
         triangles = triangulate(separate(first_map.uv, first_map.loop), first_map.loop)
     with clock("swap"):
-        return Meshed(neighborhoods, weights, first_map, swap(points, triangles), 0, 0)
+        return Meshed(swap(points, triangles), neighborhoods, weights, first_map)
+
+
+def mesh_by_agreement(
+    points: Points, loop: Loop, surface: Triangles, star: Neighborhoods, around: Neighborhoods, *, clock: StageClock
+) -> Meshed | None:
+    """Assemble the mesh from the triangles on which stars agree, without a map; None if they do not make a disc."""
+    with clock("assemble"):
+        assembled = assemble(points, surface, loop)
+    if assembled is None:
+        return None
+    with clock("swap"):
+        swapped = swap_to_delaunay(points, assembled.triangles)
+    settled, n_moves = _relocated(points, swapped, star, around, clock)
+    return Meshed(settled, n_pockets=assembled.n_pockets, n_relocated=n_moves)
 
 
 def mesh_by_links(
@@ -92,6 +111,14 @@ def mesh_by_links(
         recovered = recover_links(points, uv, triangles, links)
     with clock("swap"):
         swapped = swap_to_delaunay(points, recovered.triangles)
+    settled, n_moves = _relocated(points, swapped, graph, around, clock)
+    return Meshed(settled, graph, weights, first_map, n_recovered=recovered.n_recovered, n_relocated=n_moves)
+
+
+def _relocated(
+    points: Points, swapped: Swapped, links: Neighborhoods, around: Neighborhoods, clock: StageClock
+) -> tuple[Swapped, int]:
+    """Relocate the points whose links the mesh contradicts, and swap again, until none moves; return the moves too."""
     n_swaps, n_moves = swapped.n_swaps, 0
     for _ in range(PASSES):
         with clock("relocate"):
@@ -102,5 +129,4 @@ def mesh_by_links(
         with clock("swap"):
             swapped = swap_to_delaunay(points, relocated.triangles)
         n_swaps, n_moves = n_swaps + swapped.n_swaps, n_moves + relocated.n_moves
-    total = replace(swapped, n_swaps=n_swaps)
-    return Meshed(graph, weights, first_map, total, recovered.n_recovered, n_moves)
+    return replace(swapped, n_swaps=n_swaps), n_moves

@@ -7,7 +7,7 @@ import numpy as np
 from ._kernels.energy import total_energy
 from ._kernels.relocate import JOURNAL
 from ._kernels.relocate import relocate as relocate_kernel
-from .links import Links, is_near
+from .links import is_near
 from .mesh import start_draft
 from .neighbors import Neighborhoods
 from .typing import Indices, Points, Triangles
@@ -72,19 +72,20 @@ def relocate_points(points: Points, triangles: Triangles, around: Neighborhoods,
     return Relocated(draft.corners.reshape(-1, 3), int(moves))
 
 
-def suspect_points(links: Links, triangles: Triangles) -> Indices:
+def suspect_points(links: Neighborhoods, triangles: Triangles) -> Indices:
     """Find the points with a link whose other end is more than two edges away on the mesh, (k,).
 
     Either the link reaches across to another sheet or the mesh has the point in a wrong place.
 
     Examples
     --------
-    >>> pair = Links(Neighborhoods(np.array([0, 1, 1, 1, 1, 1, 2]), np.array([5, 0])), np.ones(2))
+    >>> pair = Neighborhoods(np.array([0, 1, 1, 1, 1, 1, 1]), np.array([5]))
     >>> strip = np.array([[0, 1, 2], [2, 1, 3], [2, 3, 4], [4, 3, 5]])
     >>> suspect_points(pair, strip)
     array([0, 5])
     """
-    return np.unique(links.neighborhoods.rows[~is_near(links, triangles)])
+    far = ~is_near(links, triangles)
+    return np.union1d(links.rows[far], links.indices[far])
 
 
 def mesh_energy(points: Points, triangles: Triangles) -> float:

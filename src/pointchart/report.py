@@ -137,7 +137,8 @@ def run_report(
     dict
     """
     points = scan[rows[result.rows]]
-    solution = result.evidence.meshed.first_map.solution
+    meshed = result.evidence.meshed
+    chart = result.evidence.chart
     return {
         "points": {
             "read": len(scan),
@@ -157,13 +158,14 @@ def run_report(
             "doubts": [_bridge(bridge) for bridge in result.evidence.bridges if not bridge.is_gap],
             "tried_before": [str(failure.renumbered(rows)) for failure in result.evidence.failures],
         },
-        "solve": solve_report(solution),
-        "solve_uv": solve_report(result.evidence.chart.solution),
+        "solve": solve_report((meshed.first_map or chart).solution),
+        "solve_uv": solve_report(chart.solution),
         "swaps": {
-            "count": result.evidence.meshed.swapped.n_swaps,
-            "settled": result.evidence.meshed.swapped.is_settled,
-            "recovered_links": result.evidence.meshed.n_recovered,
-            "relocated_points": result.evidence.meshed.n_relocated,
+            "count": meshed.swapped.n_swaps,
+            "settled": meshed.swapped.is_settled,
+            "closed_pockets": meshed.n_pockets,
+            "recovered_links": meshed.n_recovered,
+            "relocated_points": meshed.n_relocated,
         },
         "certificate": certificate_report(result.certificate),
         "quality": quality_report(points, result.triangles, result.uv),

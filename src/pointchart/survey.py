@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass, replace
 
+import numpy as np
 from numpy.typing import ArrayLike
 
 from ._check import check_loop, check_place, check_points
@@ -14,12 +15,13 @@ from .boundary import (
     boundary_scores,
     check_order,
     find_boundary,
+    tightened,
 )
 from .clock import StageClock
 from .components import check_one_piece
 from .errors import InputError, points_called
 from .prepare import Cloud, prepare
-from .typing import Loop, Points
+from .typing import Loop, Points, Triangles
 from .vicinity import Vicinity, explore
 
 
@@ -70,8 +72,20 @@ class Survey:
         if self.found is not None:
             return self.found.scores
         near = self.vicinity
-        agreed = agreed_triangles(near.smoothed, near.star, near.spacing)
-        return boundary_scores(near.smoothed, near.around, near.star, agreed, near.spacing)
+        return boundary_scores(near.smoothed, near.around, near.star, self._agreed, near.spacing)
+
+    @property
+    def surface(self) -> Triangles:
+        """The triangles on which stars agree, drawn tight to the boundary, (m, 3)."""
+        if self.found is not None:
+            return self.found.surface
+        on_loop = np.zeros(len(self.cloud.points), np.bool_)
+        on_loop[self.loop] = True
+        return tightened(self.vicinity.smoothed, self._agreed, on_loop)
+
+    @property
+    def _agreed(self) -> Triangles:
+        return agreed_triangles(self.vicinity.smoothed, self.vicinity.star, self.vicinity.spacing)
 
 
 def survey_scan(

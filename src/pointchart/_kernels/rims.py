@@ -5,6 +5,8 @@ from numba import njit
 
 from .links import are_adjacent
 
+JOINED, FULL, TWISTED = 0, 1, 2
+
 
 @njit(cache=True, nogil=True)
 def count_votes(indptr, indices, is_open, first, last, votes):
@@ -58,13 +60,88 @@ def name_edges(triangles, first, ends, edge_of):
 
 
 @njit(cache=True, nogil=True)
-def keep_manifold(order, edge_of, sides):
-    """Take triangles in the given order wherever no edge gets a third one; `sides` holds the triangles at each edge."""
-    for t in order:
-        a, b, c = edge_of[t, 0], edge_of[t, 1], edge_of[t, 2]
-        if sides[a, 1] < 0 and sides[b, 1] < 0 and sides[c, 1] < 0:
-            for e in (a, b, c):
-                sides[e, 0 if sides[e, 0] < 0 else 1] = t
+def root_of(parent, is_odd, t):
+    """Return the root of triangle t in a forest, and whether t has the other orientation; shortens the way."""
+    root, odd = t, False
+    while parent[root] != root:
+        odd ^= is_odd[root]
+        root = parent[root]
+    turned = odd
+    while parent[t] != root and t != root:
+        above, beyond = parent[t], turned ^ is_odd[t]
+        parent[t], is_odd[t] = root, turned
+        t, turned = above, beyond
+    return root, odd
+
+
+@njit(cache=True, nogil=True)
+def join_alike(triangles, edge_of, sides, parent, is_odd, t):
+    """Add triangle t to a surface: JOINED, or FULL if an edge has two already, or TWISTED if no orientation fits.
+
+    Parts of the surface that are joined so far are trees of `parent`; `is_odd` tells which triangles are turned against
+    the one above them.
+    """
+    roots, odds = (-1, -1, -1), (False, False, False)
+    for k in range(3):
+        if sides[edge_of[t, k], 1] >= 0:
+            return FULL
+    for k in range(3):
+        e = edge_of[t, k]
+        other = sides[e, 0]
+        if other < 0:
+            continue
+        runs_alike = False
+        for j in range(3):
+            if edge_of[other, j] == e:
+                runs_alike = triangles[other, (j + 1) % 3] == triangles[t, (k + 1) % 3]
+        root, odd = root_of(parent, is_odd, other)
+        odd ^= runs_alike
+        for j in range(k):
+            if roots[j] == root and odds[j] != odd:
+                return TWISTED
+        roots = (root if k == 0 else roots[0], root if k == 1 else roots[1], root if k == 2 else roots[2])
+        odds = (odd if k == 0 else odds[0], odd if k == 1 else odds[1], odd if k == 2 else odds[2])
+    parent[t], is_odd[t] = t, False
+    for k in range(3):
+        put_beside(sides, edge_of[t, k], t)
+        if roots[k] >= 0:
+            root, odd = root_of(parent, is_odd, t)
+            if root_of(parent, is_odd, roots[k])[0] != root:
+                parent[root], is_odd[root] = roots[k], odd ^ odds[k]
+    return JOINED
+
+
+@njit(cache=True, nogil=True)
+def put_beside(sides, edge, t):
+    """Note triangle t at an edge with room."""
+    sides[edge, 0 if sides[edge, 0] < 0 else 1] = t
+
+
+@njit(cache=True, nogil=True)
+def fill_sides(edge_of, sides):
+    """Note the triangles at each edge, at most two."""
+    for t in range(len(edge_of)):
+        for e in edge_of[t]:
+            if sides[e, 1] < 0:
+                put_beside(sides, e, t)
+
+
+@njit(cache=True, nogil=True)
+def keep_manifold(triangles, edge_of, sides, parent, is_odd, outcome):
+    """Take triangles in their order wherever no edge gets a third one; `sides` holds the triangles at each edge.
+
+    Those that no orientation fits come last. `outcome` tells of each triangle whether it was JOINED, FULL or TWISTED.
+    """
+    for t in range(len(triangles)):
+        outcome[t] = join_alike(triangles, edge_of, sides, parent, is_odd, t)
+    for t in range(len(triangles)):
+        if outcome[t] == TWISTED:
+            a, b, c = edge_of[t, 0], edge_of[t, 1], edge_of[t, 2]
+            if sides[a, 1] >= 0 or sides[b, 1] >= 0 or sides[c, 1] >= 0:
+                outcome[t] = FULL
+            else:
+                for e in (a, b, c):
+                    put_beside(sides, e, t)
 
 
 @njit(cache=True, nogil=True)

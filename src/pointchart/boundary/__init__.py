@@ -6,6 +6,7 @@ from .layout import (
     centripetal_steps,
     chord_length_on_circle,
     chord_length_steps,
+    is_same_loop,
     on_circle,
     on_polygon,
     on_square,
@@ -17,7 +18,7 @@ from .layout import (
 )
 from .order import check_order
 from .orient import anticlockwise
-from .rims import agreed_triangles, rims
+from .rims import agreed_triangles, rims, tightened
 from .steps import perimeter, step_lengths
 from .univariate import order_by_halves
 
@@ -35,6 +36,7 @@ __all__ = [
     "chord_length_steps",
     "find_boundary",
     "hull_test",
+    "is_same_loop",
     "on_circle",
     "on_polygon",
     "on_square",
@@ -46,5 +48,6 @@ __all__ = [
     "rims",
     "sharpest_places",
     "step_lengths",
+    "tightened",
     "uniform_steps",
 ]

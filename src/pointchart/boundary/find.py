@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike
 from .._check import check_points
 from ..components import check_one_piece
 from ..errors import InputError
-from ..typing import Floats, Loop, Mask, Points
+from ..typing import Floats, Loop, Mask, Points, Triangles
 from ..vicinity import Vicinity, explore
 from .detect import BoundaryScores, boundary_scores
 from .orient import anticlockwise
@@ -48,11 +48,14 @@ class FoundBoundary:
     candidates : list of Candidate
         All loops that the scores support: that of the boundary first, then the others, the best first.
     scores : BoundaryScores
+    surface : (m, 3) int64
+        The triangles on which stars agree, with the loops for rims.
     """
 
     loop: Loop
     candidates: list[Candidate]
     scores: BoundaryScores
+    surface: Triangles
 
     def nearest_to(self, points: Points, place: Floats) -> int:
         """Return which candidate passes nearest to a place, (3,)."""
@@ -61,7 +64,7 @@ class FoundBoundary:
     def beginning_with(self, k: int) -> "FoundBoundary":
         """Return the same, with candidate k for the boundary."""
         chosen, others = self.candidates[k], self.candidates[:k] + self.candidates[k + 1 :]
-        return FoundBoundary(chosen.loop, [chosen, *others], self.scores)
+        return replace(self, loop=chosen.loop, candidates=[chosen, *others])
 
 
 def find_boundary(points: ArrayLike, *, vicinity: Vicinity | None = None) -> FoundBoundary:
@@ -111,7 +114,7 @@ def find_boundary(points: ArrayLike, *, vicinity: Vicinity | None = None) -> Fou
         )
     good.sort(key=lambda c: -c.share * c.length)
     good = [replace(candidate, loop=anticlockwise(cloud, candidate.loop)) for candidate in good]
-    return FoundBoundary(good[0].loop, good, scores)
+    return FoundBoundary(good[0].loop, good, scores, surface)
 
 
 def measure(points: Points, loop: Loop, is_boundary: Mask) -> Candidate:

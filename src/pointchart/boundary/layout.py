@@ -262,3 +262,19 @@ def reversed_loop(loop: Loop) -> Loop:
     array([4, 9, 7])
     """
     return np.concatenate([loop[:1], loop[:0:-1]])
+
+
+def is_same_loop(one: Loop, other: Loop) -> bool:
+    """Tell whether two loops are the same, wherever they start and whichever way they run.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> is_same_loop(np.array([4, 7, 9]), np.array([9, 7, 4]))
+    True
+    """
+    places = np.flatnonzero(one == other[0])
+    if len(one) != len(other) or len(places) != 1:
+        return False
+    turned = np.roll(one, -int(places[0]))
+    return bool(np.array_equal(turned, other) or np.array_equal(turned[1:], other[:0:-1]))

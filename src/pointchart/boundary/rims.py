@@ -4,7 +4,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .._check import check_points
-from .._kernels.rims import count_votes, draw_tight, keep_manifold, name_edges, walk_rims
+from .._kernels.rims import JOINED, TWISTED, count_votes, draw_tight, fill_sides, keep_manifold, name_edges, walk_rims
 from .._parallel import over_ranges
 from ..errors import InputError
 from ..neighbors import Neighborhoods
@@ -45,8 +45,10 @@ def agreed_triangles(points: ArrayLike, star: Neighborhoods, spacing: Floats) ->
     order = np.lexsort((width[narrow], -votes[held][narrow]))
     candidates = np.ascontiguousarray(triangles[narrow][order])
     edge_of, sides, _ = _edges(candidates, len(cloud))
-    keep_manifold(np.arange(len(candidates)), edge_of, sides)
-    return candidates[np.unique(sides[sides >= 0])]
+    m = len(candidates)
+    outcome = np.empty(m, np.int64)
+    keep_manifold(candidates, edge_of, sides, np.empty(m, np.int64), np.empty(m, np.bool_), outcome)
+    return np.concatenate([candidates[outcome == JOINED], candidates[outcome == TWISTED]])
 
 
 def tightened(points: ArrayLike, triangles: Triangles, is_boundary: Mask) -> Triangles:
@@ -74,7 +76,7 @@ def tightened(points: ArrayLike, triangles: Triangles, is_boundary: Mask) -> Tri
     """
     cloud = check_points(points)
     edge_of, sides, ends = _edges(triangles, len(cloud))
-    keep_manifold(np.arange(len(triangles)), edge_of, sides)
+    fill_sides(edge_of, sides)
     removed, queue = np.zeros(len(triangles), np.bool_), np.empty(len(ends) + 2 * len(triangles), np.int64)
     draw_tight(cloud, triangles, ends, edge_of, sides, is_boundary, np.zeros(len(cloud), np.bool_), queue, removed)
     return triangles[~removed]
@@ -92,7 +94,7 @@ def rims(triangles: Triangles, n_points: int) -> list[Loop]:
     [[2, 0, 1], [4, 0, 3]]
     """
     edge_of, sides, ends = _edges(triangles, n_points)
-    keep_manifold(np.arange(len(triangles)), edge_of, sides)
+    fill_sides(edge_of, sides)
     walk, starts = np.empty(len(ends) + 1, np.int64), np.empty(len(ends) + 1, np.int64)
     count = walk_rims(ends, edge_of, sides, np.zeros(len(ends), np.bool_), walk, starts)
     return [loop for k in range(count) for loop in _simple(walk[starts[k] : starts[k + 1]])]

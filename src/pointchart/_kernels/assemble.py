@@ -1,0 +1,253 @@
+"""From the surface on which stars agree to a disc: one orientation, no pinches, pockets closed."""
+
+import numpy as np
+from numba import njit
+
+from .half_edges import following, preceding
+from .rims import JOINED, join_alike, root_of
+from .swaps import are_joined, link
+
+FOLDED = 1e6  # how many times dearer an ear is that folds back on the surface beside it
+
+
+@njit(cache=True, nogil=True)
+def turn_alike(triangles, edge_of, sides, parent, is_odd, is_kept):
+    """Turn triangles so that neighbours have the same orientation, and keep the largest part that edges join.
+
+    Triangles are taken in their order; one that fits none of its neighbours' orientations is not kept. `sides` holds the
+    triangles at each edge and is filled.
+    """
+    sides[:] = -1
+    sizes = np.zeros(len(triangles), np.int64)
+    for t in range(len(triangles)):
+        is_kept[t] = join_alike(triangles, edge_of, sides, parent, is_odd, t) == JOINED
+    for t in range(len(triangles)):
+        if is_kept[t]:
+            sizes[root_of(parent, is_odd, t)[0]] += 1
+    largest = np.argmax(sizes)
+    for t in range(len(triangles)):
+        if is_kept[t]:
+            root, odd = root_of(parent, is_odd, t)
+            is_kept[t] = root == largest
+            if odd:
+                triangles[t, 1], triangles[t, 2] = triangles[t, 2], triangles[t, 1]
+
+
+@njit(cache=True, nogil=True)
+def keep_largest(twin, is_kept):
+    """Keep the largest part, of those kept, that edges join."""
+    part, stack = np.full(len(is_kept), -1, np.int64), np.empty(len(is_kept), np.int64)
+    best = most = -1
+    for seed in range(len(is_kept)):
+        if part[seed] >= 0 or not is_kept[seed]:
+            continue
+        part[seed], stack[0], depth, size = seed, seed, 1, 0
+        while depth > 0:
+            depth -= 1
+            t = stack[depth]
+            size += 1
+            for h in range(3 * t, 3 * t + 3):
+                other = twin[h] // 3
+                if twin[h] >= 0 and is_kept[other] and part[other] < 0:
+                    part[other], stack[depth] = seed, other
+                    depth += 1
+        if size > most:
+            best, most = seed, size
+    for t in range(len(is_kept)):
+        is_kept[t] = part[t] == best
+
+
+@njit(cache=True, nogil=True)
+def along_rim(twin, h):
+    """Return the boundary half-edge that follows h with the surface on its left."""
+    k = following(h)
+    while twin[k] >= 0:
+        k = following(twin[k])
+    return k
+
+
+@njit(cache=True, nogil=True)
+def mark_rims(twin, rim):
+    """Number the boundary walks, in `rim` for each half-edge, -1 inside; return how many there are."""
+    rim[:] = -1
+    count = 0
+    for h in range(len(twin)):
+        if twin[h] < 0 and rim[h] < 0:
+            k = h
+            while rim[k] < 0:
+                rim[k] = count
+                k = along_rim(twin, k)
+            count += 1
+    return count
+
+
+@njit(cache=True, nogil=True)
+def mark_pinching(corners, twin, rim, first, is_kept):
+    """Drop the smaller fans where two walks meet in a point, or one meets an inner point; return how many fans.
+
+    A walk that passes a point twice is left: its loops are two pockets that touch. `first` is scratch space, -1.
+    """
+    n_triangles, dropped = np.zeros(len(first), np.int32), 0
+    for v in corners:
+        n_triangles[v] += 1
+    for h in range(len(corners)):
+        if twin[h] >= 0:
+            continue
+        v, size = corners[h], fan_size(twin, h)
+        n_triangles[v] -= size
+        best = first[v]
+        if best < 0:
+            first[v] = h
+        elif rim[best] != rim[h]:
+            is_larger = size > fan_size(twin, best)
+            drop_fan(twin, best if is_larger else h, is_kept)
+            first[v] = h if is_larger else best
+            dropped += 1
+    for v in range(len(first)):
+        if first[v] >= 0 and n_triangles[v] > 0:  # what is left is a closed fan
+            drop_fan(twin, first[v], is_kept)
+            dropped += 1
+    return dropped
+
+
+@njit(cache=True, nogil=True)
+def fan_size(twin, h):
+    """Count the triangles around the origin of boundary half-edge h."""
+    size = 1
+    while twin[preceding(h)] >= 0:
+        h = twin[preceding(h)]
+        size += 1
+    return size
+
+
+@njit(cache=True, nogil=True)
+def drop_fan(twin, h, is_kept):
+    """Drop the triangles around the origin of boundary half-edge h."""
+    is_kept[h // 3] = False
+    while twin[preceding(h)] >= 0:
+        h = twin[preceding(h)]
+        is_kept[h // 3] = False
+
+
+@njit(cache=True, nogil=True)
+def cut_walks(corners, twin, place, path, loops, starts, is_kept):
+    """Cut the boundary walks into loops that pass no point twice; return how many, and how many fans are in the way.
+
+    The half-edges of each loop follow each other in `loops`, beginning at `starts`. A walk that passes two points in
+    turn, twice, is no rim of a surface in the plane: there a fan is dropped. `place`, (n_points,) of -1, and `path` are
+    scratch space.
+    """
+    seen, closed = np.zeros(len(twin), np.bool_), np.full(len(place), -1, np.int64)
+    count = size = tangled = 0
+    for seed in range(len(twin)):
+        if twin[seed] >= 0 or seen[seed]:
+            continue
+        depth, h = 0, seed
+        while not seen[h]:
+            seen[h] = True
+            v = corners[h]
+            if closed[v] == seed:
+                drop_fan(twin, h, is_kept)
+                tangled += 1
+            if place[v] >= 0:
+                size, depth = close_loop(corners, place, path, place[v], depth, loops, starts, count, size)
+                count += 1
+                for k in range(starts[count - 1] + 1, size):
+                    closed[corners[loops[k]]] = seed
+            place[v], path[depth] = depth, h
+            depth += 1
+            h = along_rim(twin, h)
+        size, depth = close_loop(corners, place, path, 0, depth, loops, starts, count, size)
+        count += 1
+    starts[count] = size
+    return count, tangled
+
+
+@njit(cache=True, nogil=True)
+def close_loop(corners, place, path, begin, depth, loops, starts, count, size):
+    """Take the path from `begin` on off its end and write it as a loop; return the new sizes."""
+    starts[count] = size
+    for k in range(begin, depth):
+        loops[size] = path[k]
+        place[corners[path[k]]] = -1
+        size += 1
+    return size, begin
+
+
+@njit(cache=True, nogil=True)
+def cap(points, corners, twin, loop, first_free):
+    """Close a loop of boundary half-edges by cutting ears, those with the shortest base first.
+
+    New triangles go to places `first_free` and on; returns the next free place, or -1 if all bases are edges already.
+    Of all ears those are cut at once that are better than both beside them.
+    """
+    n = len(loop)
+    edge, after, before = loop.copy(), np.empty(n, np.int64), np.empty(n, np.int64)
+    cost, active = np.empty(n), np.arange(n)
+    for k in range(n):
+        after[k], before[k] = (k + 1) % n, (k - 1) % n
+    for k in range(n):
+        cost[k] = ear_cost(points, corners, twin, edge[k], edge[after[k]], n == 3)
+    left = n
+    while left > 3:
+        cut = 0
+        for place in range(len(active)):
+            k = active[place]
+            if edge[k] < 0 or left <= 3 or cost[k] == np.inf:
+                continue
+            a, b = cost[before[k]], cost[after[k]]
+            if a < cost[k] or b < cost[k] or (a == cost[k] and before[k] < k) or (b == cost[k] and after[k] < k):
+                continue
+            other = after[k]
+            edge[k] = add_ear(corners, twin, edge[k], edge[other], first_free)
+            first_free, edge[other] = first_free + 1, -1
+            after[k], before[after[other]] = after[other], k
+            left, cut = left - 1, cut + 1
+            for m in (before[k], k):
+                cost[m] = ear_cost(points, corners, twin, edge[m], edge[after[m]], left == 3)
+        if cut == 0:
+            return -1
+        active = active[edge[active] >= 0]
+    for k in active:
+        if edge[k] >= 0:
+            third = add_ear(corners, twin, edge[k], edge[after[k]], first_free)
+            link(twin, third, edge[before[k]])
+            return first_free + 1
+    return -1
+
+
+@njit(cache=True, nogil=True)
+def add_ear(corners, twin, h, k, place):
+    """Put a triangle on boundary half-edges h, ab, and k, bc; return its own half-edge along ac."""
+    a, b, c = corners[h], corners[k], corners[following(k)]
+    new = 3 * place
+    corners[new], corners[new + 1], corners[new + 2] = a, c, b
+    twin[new] = -1
+    link(twin, new + 1, k)
+    link(twin, new + 2, h)
+    return new
+
+
+@njit(cache=True, nogil=True)
+def ear_cost(points, corners, twin, h, k, is_last):
+    """Return the squared base of the ear on half-edges h and k, many times more if it folds back; inf if it is an edge."""
+    a, b, c = corners[h], corners[k], corners[following(k)]
+    if a == c or (not is_last and (are_joined(corners, twin, h, c) or are_joined(corners, twin, following(k), a))):
+        return np.inf
+    base = 0.0
+    for d in range(3):
+        base += (points[c, d] - points[a, d]) ** 2
+    own = area_vector(points, a, c, b)
+    for side in (h, k):
+        near = area_vector(points, corners[side], corners[following(side)], corners[preceding(side)])
+        if own[0] * near[0] + own[1] * near[1] + own[2] * near[2] < 0.0:
+            base *= FOLDED
+    return base
+
+
+@njit(cache=True, nogil=True, inline="always")
+def area_vector(points, a, b, c):
+    """Return twice the area vector of a triangle."""
+    ux, uy, uz = points[b, 0] - points[a, 0], points[b, 1] - points[a, 1], points[b, 2] - points[a, 2]
+    vx, vy, vz = points[c, 0] - points[a, 0], points[c, 1] - points[a, 1], points[c, 2] - points[a, 2]
+    return uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx
