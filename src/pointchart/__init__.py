@@ -1,182 +1,206 @@
 """From an unorganized point cloud of one surface patch to planar parameters and a certified disc mesh.
 
-The names below are the public interface, in the order of the pipeline.
+The names below are the public interface, in the order of the pipeline; each is imported when it is first asked for.
 """
 
-from .boundary import (
-    BoundaryScores,
-    Candidate,
-    FoundBoundary,
-    angular_gaps,
-    anticlockwise,
-    boundary_scores,
-    centripetal_steps,
-    chord_length_on_circle,
-    chord_length_steps,
-    find_boundary,
-    hull_test,
-    on_circle,
-    on_polygon,
-    on_square,
-    order_by_halves,
-    quarter_places,
-    sharpest_places,
-    uniform_steps,
-)
-from .certify import Certificate, certify
-from .chart import uv_free_boundary, uv_low_stretch, uv_of_points, uv_on_mesh
-from .clock import StageClock
-from .components import largest_component
-from .curvature_swaps import (
-    swap_to_least_curvature,
-    swap_to_least_gaussian_curvature,
-    swap_to_least_mean_curvature,
-    swap_to_least_turn,
-)
-from .dirichlet import Flattened, minimize_dirichlet
-from .errors import FormatError, InputError, PointchartError, SolveError
-from .fit import BSplineSurface, fit_bspline, fit_radial, interpolate_clough_tocher
-from .gaps import bridge_gaps, leave_gaps_open, refuse_second_boundary
-from .intersections import self_intersections
-from .io import Scan, read_loop, read_scan, write_curves, write_loop, write_mesh, write_uv
-from .links import Links, link_stars, trusted
-from .mesh import one_rings
-from .neighbors import Neighborhoods, ball, nearest, spacing
-from .parameterize import Parameterization, parameterize
-from .pipeline import Reconstruction, parameterize_scan, reconstruct
-from .prepare import Cloud, prepare
-from .quality import (
-    area_distortions,
-    conformal_distortions,
-    l2_stretch,
-    least_distance,
-    linf_stretch,
-    radius_ratios,
-    stretches,
-    vertex_stretches,
-)
-from .recover import Recovered, recover_links
-from .relocate import Relocated, mesh_energy, relocate_points, suspect_points
-from .reopen import parameterize_open
-from .solve import Solution, bicgstab, cholesky, conjugate_gradient, direct, multigrid, solve_fixed
-from .stars import delaunay_star, nearest_star, normals, smooth
-from .surface_io import read_cad, read_surface_json, write_cad, write_surface_json
-from .surfacing import SurfacedScan, fit_scan
-from .survey import Survey, survey_scan
-from .swaps import Swapped, keep_edges, swap_to_delaunay
-from .triangulate import triangulate
-from .vicinity import Vicinity, explore
-from .weights import mean_value, reciprocal_distance, shape_preserving, uniform
+# ruff: noqa: I001, for one statement a module.
 
-__all__ = [
-    "BSplineSurface",
-    "BoundaryScores",
-    "Candidate",
-    "Certificate",
-    "Cloud",
-    "Flattened",
-    "FormatError",
-    "FoundBoundary",
-    "InputError",
-    "Links",
-    "Neighborhoods",
-    "Parameterization",
-    "PointchartError",
-    "Reconstruction",
-    "Recovered",
-    "Relocated",
-    "Scan",
-    "Solution",
-    "SolveError",
-    "StageClock",
-    "SurfacedScan",
-    "Survey",
-    "Swapped",
-    "Vicinity",
-    "angular_gaps",
-    "anticlockwise",
-    "area_distortions",
-    "ball",
-    "bicgstab",
-    "boundary_scores",
-    "bridge_gaps",
-    "centripetal_steps",
-    "certify",
-    "cholesky",
-    "chord_length_on_circle",
-    "chord_length_steps",
-    "conformal_distortions",
-    "conjugate_gradient",
-    "delaunay_star",
-    "direct",
-    "explore",
-    "find_boundary",
-    "fit_bspline",
-    "fit_radial",
-    "fit_scan",
-    "hull_test",
-    "interpolate_clough_tocher",
-    "keep_edges",
-    "l2_stretch",
-    "largest_component",
-    "least_distance",
-    "leave_gaps_open",
-    "linf_stretch",
-    "link_stars",
-    "mean_value",
-    "mesh_energy",
-    "minimize_dirichlet",
-    "multigrid",
-    "nearest",
-    "nearest_star",
-    "normals",
-    "on_circle",
-    "on_polygon",
-    "on_square",
-    "one_rings",
-    "order_by_halves",
-    "parameterize",
-    "parameterize_open",
-    "parameterize_scan",
-    "prepare",
-    "quarter_places",
-    "radius_ratios",
-    "read_cad",
-    "read_loop",
-    "read_scan",
-    "read_surface_json",
-    "reciprocal_distance",
-    "reconstruct",
-    "recover_links",
-    "refuse_second_boundary",
-    "relocate_points",
-    "self_intersections",
-    "shape_preserving",
-    "sharpest_places",
-    "smooth",
-    "solve_fixed",
-    "spacing",
-    "stretches",
-    "survey_scan",
-    "suspect_points",
-    "swap_to_delaunay",
-    "swap_to_least_curvature",
-    "swap_to_least_gaussian_curvature",
-    "swap_to_least_mean_curvature",
-    "swap_to_least_turn",
-    "triangulate",
-    "trusted",
-    "uniform",
-    "uniform_steps",
-    "uv_free_boundary",
-    "uv_low_stretch",
-    "uv_of_points",
-    "uv_on_mesh",
-    "vertex_stretches",
-    "write_cad",
-    "write_curves",
-    "write_loop",
-    "write_mesh",
-    "write_surface_json",
-    "write_uv",
-]
+import sys
+from importlib import import_module
+from types import ModuleType
+from typing import TYPE_CHECKING
+
+from ._compiled import choose_folder
+
+if TYPE_CHECKING:
+    from .boundary import (
+        BoundaryScores as BoundaryScores,
+        Candidate as Candidate,
+        FoundBoundary as FoundBoundary,
+        angular_gaps as angular_gaps,
+        anticlockwise as anticlockwise,
+        boundary_scores as boundary_scores,
+        centripetal_steps as centripetal_steps,
+        chord_length_on_circle as chord_length_on_circle,
+        chord_length_steps as chord_length_steps,
+        find_boundary as find_boundary,
+        hull_test as hull_test,
+        on_circle as on_circle,
+        on_polygon as on_polygon,
+        on_square as on_square,
+        order_by_halves as order_by_halves,
+        quarter_places as quarter_places,
+        sharpest_places as sharpest_places,
+        uniform_steps as uniform_steps,
+    )
+    from .certify import Certificate as Certificate, certify as certify
+    from .chart import (
+        uv_free_boundary as uv_free_boundary,
+        uv_low_stretch as uv_low_stretch,
+        uv_of_points as uv_of_points,
+        uv_on_mesh as uv_on_mesh,
+    )
+    from .clock import StageClock as StageClock
+    from .components import largest_component as largest_component
+    from .curvature_swaps import (
+        swap_to_least_curvature as swap_to_least_curvature,
+        swap_to_least_gaussian_curvature as swap_to_least_gaussian_curvature,
+        swap_to_least_mean_curvature as swap_to_least_mean_curvature,
+        swap_to_least_turn as swap_to_least_turn,
+    )
+    from .dirichlet import Flattened as Flattened, minimize_dirichlet as minimize_dirichlet
+    from .errors import (
+        FormatError as FormatError,
+        InputError as InputError,
+        PointchartError as PointchartError,
+        SolveError as SolveError,
+    )
+    from .fit import (
+        BSplineSurface as BSplineSurface,
+        fit_bspline as fit_bspline,
+        fit_radial as fit_radial,
+        interpolate_clough_tocher as interpolate_clough_tocher,
+    )
+    from .gaps import (
+        bridge_gaps as bridge_gaps,
+        leave_gaps_open as leave_gaps_open,
+        refuse_second_boundary as refuse_second_boundary,
+    )
+    from .intersections import self_intersections as self_intersections
+    from .io import (
+        Scan as Scan,
+        read_loop as read_loop,
+        read_scan as read_scan,
+        write_curves as write_curves,
+        write_loop as write_loop,
+        write_mesh as write_mesh,
+        write_uv as write_uv,
+    )
+    from .links import Links as Links, link_stars as link_stars, trusted as trusted
+    from .mesh import one_rings as one_rings
+    from .neighbors import Neighborhoods as Neighborhoods, ball as ball, nearest as nearest, spacing as spacing
+    from .parameterize import Parameterization as Parameterization, parameterize as parameterize
+    from .pipeline import (
+        Reconstruction as Reconstruction,
+        parameterize_scan as parameterize_scan,
+        reconstruct as reconstruct,
+    )
+    from .prepare import Cloud as Cloud, prepare as prepare
+    from .quality import (
+        area_distortions as area_distortions,
+        conformal_distortions as conformal_distortions,
+        l2_stretch as l2_stretch,
+        least_distance as least_distance,
+        linf_stretch as linf_stretch,
+        radius_ratios as radius_ratios,
+        stretches as stretches,
+        vertex_stretches as vertex_stretches,
+    )
+    from .recover import Recovered as Recovered, recover_links as recover_links
+    from .relocate import (
+        Relocated as Relocated,
+        mesh_energy as mesh_energy,
+        relocate_points as relocate_points,
+        suspect_points as suspect_points,
+    )
+    from .reopen import parameterize_open as parameterize_open
+    from .solve import (
+        Solution as Solution,
+        bicgstab as bicgstab,
+        cholesky as cholesky,
+        conjugate_gradient as conjugate_gradient,
+        direct as direct,
+        multigrid as multigrid,
+        solve_fixed as solve_fixed,
+    )
+    from .stars import (
+        delaunay_star as delaunay_star,
+        nearest_star as nearest_star,
+        normals as normals,
+        smooth as smooth,
+    )
+    from .surface_io import (
+        read_cad as read_cad,
+        read_surface_json as read_surface_json,
+        write_cad as write_cad,
+        write_surface_json as write_surface_json,
+    )
+    from .surfacing import SurfacedScan as SurfacedScan, fit_scan as fit_scan
+    from .survey import Survey as Survey, survey_scan as survey_scan
+    from .swaps import Swapped as Swapped, keep_edges as keep_edges, swap_to_delaunay as swap_to_delaunay
+    from .triangulate import triangulate as triangulate
+    from .vicinity import Vicinity as Vicinity, explore as explore
+    from .weights import (
+        mean_value as mean_value,
+        reciprocal_distance as reciprocal_distance,
+        shape_preserving as shape_preserving,
+        uniform as uniform,
+    )
+
+NAMES = {
+    "boundary": (
+        "BoundaryScores Candidate FoundBoundary angular_gaps anticlockwise boundary_scores centripetal_steps "
+        "chord_length_on_circle chord_length_steps find_boundary hull_test on_circle on_polygon on_square "
+        "order_by_halves quarter_places sharpest_places uniform_steps"
+    ),
+    "certify": "Certificate certify",
+    "chart": "uv_free_boundary uv_low_stretch uv_of_points uv_on_mesh",
+    "clock": "StageClock",
+    "components": "largest_component",
+    "curvature_swaps": (
+        "swap_to_least_curvature swap_to_least_gaussian_curvature swap_to_least_mean_curvature swap_to_least_turn"
+    ),
+    "dirichlet": "Flattened minimize_dirichlet",
+    "errors": "FormatError InputError PointchartError SolveError",
+    "fit": "BSplineSurface fit_bspline fit_radial interpolate_clough_tocher",
+    "gaps": "bridge_gaps leave_gaps_open refuse_second_boundary",
+    "intersections": "self_intersections",
+    "io": "Scan read_loop read_scan write_curves write_loop write_mesh write_uv",
+    "links": "Links link_stars trusted",
+    "mesh": "one_rings",
+    "neighbors": "Neighborhoods ball nearest spacing",
+    "parameterize": "Parameterization parameterize",
+    "pipeline": "Reconstruction parameterize_scan reconstruct",
+    "prepare": "Cloud prepare",
+    "quality": (
+        "area_distortions conformal_distortions l2_stretch least_distance linf_stretch radius_ratios stretches "
+        "vertex_stretches"
+    ),
+    "recover": "Recovered recover_links",
+    "relocate": "Relocated mesh_energy relocate_points suspect_points",
+    "reopen": "parameterize_open",
+    "solve": "Solution bicgstab cholesky conjugate_gradient direct multigrid solve_fixed",
+    "stars": "delaunay_star nearest_star normals smooth",
+    "surface_io": "read_cad read_surface_json write_cad write_surface_json",
+    "surfacing": "SurfacedScan fit_scan",
+    "survey": "Survey survey_scan",
+    "swaps": "Swapped keep_edges swap_to_delaunay",
+    "triangulate": "triangulate",
+    "vicinity": "Vicinity explore",
+    "weights": "mean_value reciprocal_distance shape_preserving uniform",
+}
+MODULE_OF = {name: module for module, names in NAMES.items() for name in names.split()}
+__all__ = list(MODULE_OF)
+
+
+class _Package(ModuleType):
+    """A package whose public names stand before its modules of the same name, such as `certify`."""
+
+    def __getattr__(self, name: str) -> object:
+        if name not in MODULE_OF and name not in NAMES:
+            raise AttributeError(f"module {self.__name__!r} has no attribute {name!r}")
+        module = import_module(f"{self.__name__}.{MODULE_OF.get(name, name)}")
+        value = getattr(module, name) if name in MODULE_OF else module
+        setattr(self, name, value)
+        return value
+
+    def __setattr__(self, name: str, value: object) -> None:
+        if not (name in MODULE_OF and isinstance(value, ModuleType)):
+            super().__setattr__(name, value)
+
+    def __dir__(self) -> list[str]:
+        return sorted({*super().__dir__(), *__all__})
+
+
+sys.modules[__name__].__class__ = _Package
+choose_folder()

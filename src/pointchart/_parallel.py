@@ -1,15 +1,58 @@
-"""Kernels over ranges of points, on every core that the process may use."""
+"""Kernels over ranges of points, on every core that the process may use, or on fewer."""
 
+import math
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
+from contextvars import ContextVar
+from functools import cache
+from pathlib import Path
 
 CHUNK = 8192
+_given: ContextVar[int | None] = ContextVar("_given", default=None)
 
 
 def n_threads() -> int:
-    """Return the number of cores that this process may use."""
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+    """Return the number of threads: as given to `on_threads`, or that of the cores that this process may use."""
+    return _given.get() or usable_cores()
+
+
+@contextmanager
+def on_threads(n: int | None) -> Iterator[None]:
+    """Run the body on `n` threads, those of the linear algebra included; None for the cores that may be used.
+
+    >>> with on_threads(3):
+    ...     n_threads()
+    3
+    """
+    from threadpoolctl import threadpool_limits
+
+    before = _given.set(n)
+    try:
+        with threadpool_limits(n_threads()):
+            yield
+    finally:
+        _given.reset(before)
+
+
+@cache
+def usable_cores() -> int:
+    """Return the number of cores that this process may use, by its affinity and by the quota of its control group."""
+    cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+    return max(1, math.ceil(min(cores, core_quota())))
+
+
+def core_quota(groups: Path = Path("/sys/fs/cgroup"), membership: Path = Path("/proc/self/cgroup")) -> float:
+    """Return how many cores' time the control groups of this process (version 2) give it; infinity without a quota."""
+    line = membership.read_text() if membership.exists() else ""
+    group = groups / line.partition("0::/")[2].strip()
+    quota = math.inf
+    for limit in (folder / "cpu.max" for folder in (group, *group.parents)):
+        allowed, period = limit.read_text().split() if limit.exists() else ("max", "")
+        if allowed != "max":
+            quota = min(quota, int(allowed) / int(period))
+    return quota
 
 
 def over_ranges(kernel: Callable[[int, int], object], n: int) -> None:

@@ -4,6 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 from .assemble import assemble
+from .boundary import Patchwork
 from .clock import StageClock
 from .links import Links, trusted
 from .neighbors import Neighborhoods
@@ -72,7 +73,7 @@ def mesh_once(
 
 
 def mesh_by_agreement(
-    points: Points, loop: Loop, surface: Triangles, star: Neighborhoods, around: Neighborhoods, *, clock: StageClock
+    points: Points, loop: Loop, surface: Patchwork, star: Neighborhoods, around: Neighborhoods, *, clock: StageClock
 ) -> Meshed | None:
     """Assemble the mesh from the triangles on which stars agree, without a map; None if they do not make a disc."""
     with clock("assemble"):

@@ -10,7 +10,8 @@ from .boundary import (
     BoundaryScores,
     Candidate,
     FoundBoundary,
-    agreed_triangles,
+    Patchwork,
+    agreed_patchwork,
     anticlockwise,
     boundary_scores,
     check_order,
@@ -21,7 +22,7 @@ from .clock import StageClock
 from .components import check_one_piece
 from .errors import InputError, points_called
 from .prepare import Cloud, prepare
-from .typing import Loop, Points, Triangles
+from .typing import Loop, Points
 from .vicinity import Vicinity, explore
 
 
@@ -72,11 +73,11 @@ class Survey:
         if self.found is not None:
             return self.found.scores
         near = self.vicinity
-        return boundary_scores(near.smoothed, near.around, near.star, self._agreed, near.spacing)
+        return boundary_scores(near.smoothed, near.around, near.star, self._agreed.triangles, near.spacing)
 
     @property
-    def surface(self) -> Triangles:
-        """The triangles on which stars agree, drawn tight to the boundary, (m, 3)."""
+    def surface(self) -> Patchwork:
+        """The triangles on which stars agree, drawn tight to the boundary."""
         if self.found is not None:
             return self.found.surface
         on_loop = np.zeros(len(self.cloud.points), np.bool_)
@@ -84,8 +85,8 @@ class Survey:
         return tightened(self.vicinity.smoothed, self._agreed, on_loop)
 
     @property
-    def _agreed(self) -> Triangles:
-        return agreed_triangles(self.vicinity.smoothed, self.vicinity.star, self.vicinity.spacing)
+    def _agreed(self) -> Patchwork:
+        return agreed_patchwork(self.vicinity.smoothed, self.vicinity.star, self.vicinity.spacing)
 
 
 def survey_scan(

@@ -4,33 +4,25 @@ import numpy as np
 from numba import njit
 
 from .half_edges import following, preceding
-from .rims import JOINED, join_alike, root_of
 from .swaps import are_joined, link
 
 FOLDED = 1e6  # how many times dearer an ear is that folds back on the surface beside it
 
 
 @njit(cache=True, nogil=True)
-def turn_alike(triangles, edge_of, sides, parent, is_odd, is_kept):
-    """Turn triangles so that neighbours have the same orientation, and keep the largest part that edges join.
-
-    Triangles are taken in their order; one that fits none of its neighbours' orientations is not kept. `sides` holds the
-    triangles at each edge and is filled.
-    """
-    sides[:] = -1
-    sizes = np.zeros(len(triangles), np.int64)
+def to_half_edges(triangles, edge_of, sides, number, corners, twin):
+    """Write the corners of triangles that have a number, and their opposite half-edges, -1 where there is none."""
     for t in range(len(triangles)):
-        is_kept[t] = join_alike(triangles, edge_of, sides, parent, is_odd, t) == JOINED
-    for t in range(len(triangles)):
-        if is_kept[t]:
-            sizes[root_of(parent, is_odd, t)[0]] += 1
-    largest = np.argmax(sizes)
-    for t in range(len(triangles)):
-        if is_kept[t]:
-            root, odd = root_of(parent, is_odd, t)
-            is_kept[t] = root == largest
-            if odd:
-                triangles[t, 1], triangles[t, 2] = triangles[t, 2], triangles[t, 1]
+        if number[t] < 0:
+            continue
+        for k in range(3):
+            h, e = 3 * number[t] + k, edge_of[t, (k + 2) % 3]
+            corners[h], twin[h] = triangles[t, k], -1
+            other = sides[e, 0] + sides[e, 1] - t
+            if sides[e, 1] >= 0 and number[other] >= 0:
+                for j in range(3):
+                    if edge_of[other, (j + 2) % 3] == e:
+                        twin[h] = 3 * number[other] + j
 
 
 @njit(cache=True, nogil=True)

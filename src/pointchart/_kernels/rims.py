@@ -1,5 +1,7 @@
 """The triangles on which neighbouring stars agree, made a surface, and the rims of that surface."""
 
+import math
+
 import numpy as np
 from numba import njit
 
@@ -26,6 +28,67 @@ def count_votes(indptr, indices, is_open, first, last, votes):
 
 
 @njit(cache=True, nogil=True)
+def collect_triangles(points, indptr, indices, votes, spacing, least, widest, triangles, width, held):
+    """Write the triangles with enough votes and a circumradius under `widest` local spacings; return how many.
+
+    `width` is that radius in spacings, `held` the votes.
+    """
+    count = 0
+    for i in range(len(points)):
+        for e in range(indptr[i], indptr[i + 1]):
+            if votes[e] < least:
+                continue
+            j, k = indices[e], indices[e + 1 if e + 1 < indptr[i + 1] else indptr[i]]
+            radius = circumradius(points, i, j, k) / max(spacing[i], spacing[j], spacing[k])
+            if radius < widest:
+                triangles[count, 0], triangles[count, 1], triangles[count, 2] = i, j, k
+                width[count], held[count] = radius, votes[e]
+                count += 1
+    return count
+
+
+@njit(cache=True, nogil=True, inline="always")
+def circumradius(points, a, b, c):
+    """Return the circumradius of a triangle, very large if it is flat."""
+    ux, uy, uz = points[b, 0] - points[a, 0], points[b, 1] - points[a, 1], points[b, 2] - points[a, 2]
+    vx, vy, vz = points[c, 0] - points[a, 0], points[c, 1] - points[a, 1], points[c, 2] - points[a, 2]
+    wx, wy, wz = ux - vx, uy - vy, uz - vz
+    nx, ny, nz = uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx
+    product = (ux * ux + uy * uy + uz * uz) * (vx * vx + vy * vy + vz * vz) * (wx * wx + wy * wy + wz * wz)
+    return math.sqrt(product) / max(2.0 * math.sqrt(nx * nx + ny * ny + nz * nz), 1e-300)
+
+
+@njit(cache=True, nogil=True)
+def count_at_edges(edge_of, wanted, is_contested):
+    """Count the triangles that want each edge, up to three, and mark those with an edge that three want."""
+    for t in range(len(edge_of)):
+        for e in edge_of[t]:
+            wanted[e] = min(wanted[e] + 1, 3)
+    for t in range(len(edge_of)):
+        is_contested[t] = wanted[edge_of[t, 0]] > 2 or wanted[edge_of[t, 1]] > 2 or wanted[edge_of[t, 2]] > 2
+
+
+@njit(cache=True, nogil=True)
+def add_corner_angles(points, triangles, total):
+    """Add the angles of each triangle to those at its corners, in radians."""
+    for t in range(len(triangles)):
+        for k in range(3):
+            at, left, right = triangles[t, k], triangles[t, (k + 1) % 3], triangles[t, (k + 2) % 3]
+            ux, uy, uz = (
+                points[left, 0] - points[at, 0],
+                points[left, 1] - points[at, 1],
+                points[left, 2] - points[at, 2],
+            )
+            vx, vy, vz = (
+                points[right, 0] - points[at, 0],
+                points[right, 1] - points[at, 1],
+                points[right, 2] - points[at, 2],
+            )
+            nx, ny, nz = uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx
+            total[at] += math.atan2(math.sqrt(nx * nx + ny * ny + nz * nz), ux * vx + uy * vy + uz * vz)
+
+
+@njit(cache=True, nogil=True)
 def name_edges(triangles, first, ends, edge_of):
     """Give the edges of triangles numbers, whatever their orientation; return how many there are.
 
@@ -38,8 +101,8 @@ def name_edges(triangles, first, ends, edge_of):
             first[min(triangles[t, (k + 1) % 3], triangles[t, (k + 2) % 3]) + 1] += 1
     for v in range(len(first) - 1):
         first[v + 1] += first[v]
-    filled = np.zeros(len(first), np.int64)
-    slots = np.full(3 * m, -1, np.int64)
+    filled = np.zeros(len(first), np.int32)
+    slots = np.full(3 * m, -1, np.int32)
     count = 0
     for t in range(m):
         for k in range(3):
@@ -118,23 +181,14 @@ def put_beside(sides, edge, t):
 
 
 @njit(cache=True, nogil=True)
-def fill_sides(edge_of, sides):
-    """Note the triangles at each edge, at most two."""
-    for t in range(len(edge_of)):
-        for e in edge_of[t]:
-            if sides[e, 1] < 0:
-                put_beside(sides, e, t)
-
-
-@njit(cache=True, nogil=True)
-def keep_manifold(triangles, edge_of, sides, parent, is_odd, outcome):
-    """Take triangles in their order wherever no edge gets a third one; `sides` holds the triangles at each edge.
+def keep_manifold(triangles, order, edge_of, sides, parent, is_odd, outcome):
+    """Take triangles in the given order wherever no edge gets a third one; `sides` holds the triangles at each edge.
 
     Those that no orientation fits come last. `outcome` tells of each triangle whether it was JOINED, FULL or TWISTED.
     """
-    for t in range(len(triangles)):
+    for t in order:
         outcome[t] = join_alike(triangles, edge_of, sides, parent, is_odd, t)
-    for t in range(len(triangles)):
+    for t in order:
         if outcome[t] == TWISTED:
             a, b, c = edge_of[t, 0], edge_of[t, 1], edge_of[t, 2]
             if sides[a, 1] >= 0 or sides[b, 1] >= 0 or sides[c, 1] >= 0:
@@ -142,6 +196,32 @@ def keep_manifold(triangles, edge_of, sides, parent, is_odd, outcome):
             else:
                 for e in (a, b, c):
                     put_beside(sides, e, t)
+
+
+@njit(cache=True, nogil=True)
+def turn_alike(triangles, edge_of, parent, is_odd, outcome):
+    """Turn joined triangles so that neighbours are oriented alike; `parent` becomes their part, -1 for the others."""
+    for t in range(len(triangles)):
+        if outcome[t] == JOINED:
+            odd = root_of(parent, is_odd, t)[1]
+            if odd:
+                triangles[t, 1], triangles[t, 2] = triangles[t, 2], triangles[t, 1]
+                edge_of[t, 1], edge_of[t, 2] = edge_of[t, 2], edge_of[t, 1]
+    for t in range(len(triangles)):
+        if outcome[t] == JOINED:
+            parent[t] = root_of(parent, is_odd, t)[0]
+        else:
+            parent[t] = -1
+
+
+@njit(cache=True, nogil=True)
+def close_up(sides, dropped, number):
+    """Take dropped triangles from the sides of edges, and give the others their new numbers."""
+    for e in range(len(sides)):
+        a, b = sides[e, 0], sides[e, 1]
+        a = -1 if a < 0 or dropped[a] else number[a]
+        b = -1 if b < 0 or dropped[b] else number[b]
+        sides[e, 0], sides[e, 1] = (b, a) if a < 0 else (a, b)
 
 
 @njit(cache=True, nogil=True)

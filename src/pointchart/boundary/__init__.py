@@ -18,7 +18,8 @@ from .layout import (
 )
 from .order import check_order
 from .orient import anticlockwise
-from .rims import agreed_triangles, rims, tightened
+from .patchwork import Patchwork, agreed_patchwork, patchwork
+from .rims import rims, tightened
 from .steps import perimeter, step_lengths
 from .univariate import order_by_halves
 
@@ -26,7 +27,8 @@ __all__ = [
     "BoundaryScores",
     "Candidate",
     "FoundBoundary",
-    "agreed_triangles",
+    "Patchwork",
+    "agreed_patchwork",
     "angular_gaps",
     "anticlockwise",
     "boundary_scores",
@@ -41,6 +43,7 @@ __all__ = [
     "on_polygon",
     "on_square",
     "order_by_halves",
+    "patchwork",
     "perimeter",
     "places_of",
     "quarter_places",

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .._check import check_neighbors, check_points
+from .._kernels.rims import add_corner_angles
 from .._kernels.sides import star_widths as widths_kernel
 from .._kernels.sides import survey_sides
 from .._parallel import over_ranges
@@ -85,13 +86,14 @@ def boundary_scores(
 
     Examples
     --------
-    >>> from pointchart.boundary import agreed_triangles
+    >>> from pointchart.boundary import agreed_patchwork
     >>> from pointchart.neighbors import nearest
     >>> from pointchart.stars import delaunay_star
     >>> plus = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0]])
     >>> near = nearest(plus, 4)
     >>> star = delaunay_star(plus, near)
-    >>> boundary_scores(plus, near, star, agreed_triangles(plus, star, np.ones(5)), np.ones(5)).is_boundary
+    >>> agreed = agreed_patchwork(plus, star, np.ones(5)).triangles
+    >>> boundary_scores(plus, near, star, agreed, np.ones(5)).is_boundary
     array([False,  True,  True,  True,  True])
     """
     cloud = check_points(points)
@@ -184,11 +186,7 @@ def corner_angles(points: Points, triangles: Triangles) -> Floats:
     array([90., 45., 45.])
     """
     total = np.zeros(len(points))
-    for k in range(3):
-        at, left, right = (triangles[:, (k + step) % 3] for step in range(3))
-        a, b = points[left] - points[at], points[right] - points[at]
-        sine, cosine = np.linalg.norm(np.cross(a, b), axis=1), (a * b).sum(axis=1)
-        total += np.bincount(at, np.arctan2(sine, cosine), len(points))
+    add_corner_angles(points, triangles, total)
     return total
 
 

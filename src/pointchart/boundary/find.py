@@ -8,11 +8,12 @@ from numpy.typing import ArrayLike
 from .._check import check_points
 from ..components import check_one_piece
 from ..errors import InputError
-from ..typing import Floats, Loop, Mask, Points, Triangles
+from ..typing import Floats, Loop, Mask, Points
 from ..vicinity import Vicinity, explore
 from .detect import BoundaryScores, boundary_scores
 from .orient import anticlockwise
-from .rims import agreed_triangles, rims, tightened
+from .patchwork import Patchwork, agreed_patchwork
+from .rims import rims, tightened
 from .steps import step_lengths
 
 LEAST_SHARE = 0.5
@@ -48,14 +49,14 @@ class FoundBoundary:
     candidates : list of Candidate
         All loops that the scores support: that of the boundary first, then the others, the best first.
     scores : BoundaryScores
-    surface : (m, 3) int64
+    surface : Patchwork
         The triangles on which stars agree, with the loops for rims.
     """
 
     loop: Loop
     candidates: list[Candidate]
     scores: BoundaryScores
-    surface: Triangles
+    surface: Patchwork
 
     def nearest_to(self, points: Points, place: Floats) -> int:
         """Return which candidate passes nearest to a place, (3,)."""
@@ -99,10 +100,10 @@ def find_boundary(points: ArrayLike, *, vicinity: Vicinity | None = None) -> Fou
     cloud = check_points(points)
     near = explore(cloud) if vicinity is None else vicinity
     check_one_piece(cloud, near.around, near.spacing)
-    agreed = agreed_triangles(near.smoothed, near.star, near.spacing)
-    scores = boundary_scores(near.smoothed, near.around, near.star, agreed, near.spacing)
+    agreed = agreed_patchwork(near.smoothed, near.star, near.spacing)
+    scores = boundary_scores(near.smoothed, near.around, near.star, agreed.triangles, near.spacing)
     surface = tightened(near.smoothed, agreed, scores.is_boundary)
-    found = [measure(cloud, loop, scores.is_boundary) for loop in rims(surface, len(cloud))]
+    found = [measure(cloud, loop, scores.is_boundary) for loop in rims(surface)]
     scale = float(np.median(near.spacing))
     good = [c for c in found if c.share >= LEAST_SHARE and c.length >= SHORTEST * scale]
     if not good:

@@ -1,12 +1,10 @@
-"""The command line: read, call, write."""
+"""The command line: read, call, write; a command imports what it needs when it runs, so that help comes at once."""
 
 import sys
-from importlib.metadata import version
 from typing import Annotated
 
 import typer
 
-from ..errors import PointchartError
 from . import boundary, check, demo, fit, mesh, param
 
 app = typer.Typer(
@@ -21,6 +19,8 @@ app = typer.Typer(
 
 def _show_version(is_asked: bool) -> None:
     if is_asked:
+        from importlib.metadata import version
+
         print(f"pointchart {version('pointchart')}")
         raise typer.Exit
 
@@ -46,10 +46,14 @@ def main() -> None:
     """Run the command line: exit 0 done, 1 one sentence on stderr, 2 wrong usage, 130 interrupted."""
     try:
         app()
-    except PointchartError as error:
-        _leave(str(error))
     except MemoryError:
         _leave("not enough memory for this scan; thin it, or use a machine with more")
+    except Exception as error:
+        from ..errors import PointchartError
+
+        if not isinstance(error, PointchartError):
+            raise
+        _leave(str(error))
 
 
 def _leave(sentence: str) -> None:

@@ -1,23 +1,20 @@
 """``pointchart boundary``: find and order the boundary of a scan."""
 
+from __future__ import annotations
+
 import sys
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
-import numpy as np
 import typer
 
-from ..boundary import BoundaryScores, Candidate
-from ..errors import points_called
-from ..gaps import place_of
-from ..io import check_output, write_curves, write_loop
-from ..picture import draw_boundary
-from ..survey import Survey, survey_scan
-from ..typing import Attributes, Indices, Loop
 from . import options as given
-from .choices import outer_place
-from .inputs import read_inputs
 from .progress import staged
+
+if TYPE_CHECKING:
+    from ..boundary import BoundaryScores, Candidate
+    from ..survey import Survey
+    from ..typing import Attributes, Indices, Loop
 
 
 def boundary(
@@ -34,9 +31,18 @@ def boundary(
     ] = None,
     outer: given.OuterOption = None,
     component: given.ComponentOption = None,
+    threads: given.ThreadsOption = None,
     quiet: given.QuietOption = False,
 ) -> None:
     """Find the boundary of a scan and write its points in order; the file can be edited and given back to mesh."""
+    from .._parallel import on_threads
+    from ..errors import points_called
+    from ..io import check_output, write_curves, write_loop
+    from ..picture import draw_boundary
+    from ..survey import survey_scan
+    from .choices import outer_place
+    from .inputs import read_inputs
+
     place = outer_place(outer)
     taken = [scan, out]
     for path, suffix in ((picture, ".png"), (ply, ".ply")):
@@ -44,7 +50,7 @@ def boundary(
             check_output(path, suffixes=(suffix,), inputs=taken)
             taken.append(path)
     inputs = read_inputs(scan, None, None, out=out, suffixes=(".txt",), component=component)
-    with staged(quiet) as clock, points_called(inputs.rows):
+    with on_threads(threads), staged(quiet) as clock, points_called(inputs.rows):
         survey = survey_scan(inputs.points, outer=place, clock=clock)
     rows, scores = inputs.rows[survey.cloud.rows], survey.scores
     loops = [rows[candidate.loop] for candidate in survey.candidates]
@@ -61,6 +67,8 @@ def boundary(
 
 def _columns(loops: list[Loop], scores: BoundaryScores, rows: Indices, places: Indices, n_points: int) -> Attributes:
     """Give every row of a scan the number of its loop, 0 for none, and its scores, 0 for rows not looked at."""
+    import numpy as np
+
     number = np.zeros(n_points, np.int32)
     for k, loop in reversed(list(enumerate(loops, start=1))):
         number[loop] = k
@@ -72,6 +80,8 @@ def _columns(loops: list[Loop], scores: BoundaryScores, rows: Indices, places: I
 
 
 def _lines(out: Path, survey: Survey, loops: list[Loop]) -> list[str]:
+    from ..gaps import place_of
+
     chosen, *others = survey.candidates
     lines = [
         f"{out}: a loop of {_size(chosen, survey)}, {chosen.share:.0%} of it where the scores speak for a boundary"

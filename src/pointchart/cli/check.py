@@ -1,18 +1,18 @@
 """``pointchart check``: certify a mesh from a file."""
 
+from __future__ import annotations
+
 import sys
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
-import numpy as np
 import typer
 
-from ..certify import certify
-from ..errors import InputError
-from ..io import Scan, check_output, read_scan
-from ..report import certificate_lines, certificate_report, summary, write_json
-from ..typing import UV
 from . import options as given
+
+if TYPE_CHECKING:
+    from ..io import Scan
+    from ..typing import UV
 
 
 def check(
@@ -30,6 +30,11 @@ def check(
     quiet: given.QuietOption = False,
 ) -> None:
     """Check that a mesh is a disc, on the points of a scan if one is given; exit 1 if it is not."""
+    from ..certify import certify
+    from ..errors import InputError
+    from ..io import check_output, read_scan
+    from ..report import certificate_lines, certificate_report, summary, write_json
+
     if report is not None:
         check_output(report, suffixes=(".json",), inputs=[mesh] if points is None else [mesh, points])
     read = read_scan(mesh)
@@ -55,6 +60,8 @@ def check(
 
 
 def _uv(read: Scan) -> UV | None:
+    import numpy as np
+
     if "u" not in read.attributes or "v" not in read.attributes:
         return None
     return np.column_stack([read.attributes["u"], read.attributes["v"]]).astype(np.float64)
@@ -62,6 +69,10 @@ def _uv(read: Scan) -> UV | None:
 
 def _compare(read: Scan, scan: Scan, mesh: Path, path: Path) -> int:
     """Check that the vertices of a mesh are points of a scan; return how many distinct ones are not among them."""
+    import numpy as np
+
+    from ..errors import InputError
+
     rows = read.attributes.get("point_index", np.arange(len(scan.points)))
     n_distinct = len(np.unique(scan.points, axis=0))
     if len(read.points) != len(rows) or ("point_index" not in read.attributes and n_distinct != len(read.points)):

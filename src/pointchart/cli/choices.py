@@ -1,7 +1,6 @@
-"""The words of the command line, and the functions of the library that they name."""
+"""The functions of the library that the words of the command line name."""
 
 from collections.abc import Callable
-from enum import StrEnum
 from functools import partial
 from pathlib import Path
 
@@ -16,90 +15,7 @@ from ..pipeline import Connect, LayoutRule
 from ..refine import SwapRule
 from ..typing import UV, Floats, Indices, Loop, Points
 from ..weights import WeightScheme
-
-
-class Neighbors(StrEnum):
-    """Kinds of neighbourhoods."""
-
-    delaunay = "delaunay"
-    nearest = "nearest"
-    ball = "ball"
-
-
-class Weighting(StrEnum):
-    """Kinds of weights."""
-
-    mean_value = "mean-value"
-    shape_preserving = "shape-preserving"
-    reciprocal = "reciprocal"
-    uniform = "uniform"
-
-
-class Domain(StrEnum):
-    """Kinds of convex domains."""
-
-    circle = "circle"
-    square = "square"
-
-
-class SurfaceDomain(StrEnum):
-    """Kinds of domains of a fitted surface."""
-
-    free = "free"
-    square = "square"
-
-
-class Spacing(StrEnum):
-    """Kinds of spacing along the boundary."""
-
-    chord = "chord"
-    uniform = "uniform"
-    centripetal = "centripetal"
-
-
-class Holes(StrEnum):
-    """What becomes of gaps of the scan."""
-
-    bridge = "bridge"
-    open = "open"
-
-
-class Component(StrEnum):
-    """Which part of a scan that falls into several."""
-
-    largest = "largest"
-
-
-class Swap(StrEnum):
-    """Kinds of edge swaps."""
-
-    delaunay = "delaunay"
-    normals = "normals"
-    mean_curvature = "mean-curvature"
-    gaussian_curvature = "gaussian-curvature"
-    curvature = "curvature"
-    none = "none"
-
-
-class Chart(StrEnum):
-    """Kinds of parameters."""
-
-    mesh = "mesh"
-    low_stretch = "low-stretch"
-    free = "free"
-    paper = "paper"
-
-
-class Unit(StrEnum):
-    """Units of length."""
-
-    mm = "mm"
-    cm = "cm"
-    m = "m"
-    um = "um"
-    inch = "in"
-    ft = "ft"
-
+from .words import Chart, Domain, Holes, Neighbors, Spacing, SurfaceDomain, Swap, Weighting
 
 WEIGHTS: dict[Weighting, WeightScheme] = {
     Weighting.mean_value: weights.mean_value,

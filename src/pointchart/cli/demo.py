@@ -4,13 +4,8 @@ import sys
 from pathlib import Path
 from typing import Annotated
 
-import numpy as np
 import typer
 
-from ..errors import FormatError
-from ..io import check_output, write_mesh
-from ..pipeline import reconstruct
-from ..report import certificate_lines, summary
 from . import options as given
 from .progress import staged
 
@@ -22,8 +17,14 @@ def demo(
     quiet: given.QuietOption = False,
 ) -> None:
     """Simulate a laser scan of a sculpted face, mesh it, print the certificate, write mesh and picture."""
+    import numpy as np
+
     from .. import shapes
+    from ..errors import FormatError
+    from ..io import check_output, write_mesh
     from ..picture import draw_run
+    from ..pipeline import reconstruct
+    from ..report import certificate_lines, summary
 
     if out.is_file():
         raise typer.BadParameter(f"{out} is a file; name a folder", param_hint="--out")

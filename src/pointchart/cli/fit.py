@@ -1,40 +1,22 @@
 """``pointchart fit``: from a scan to a smooth surface that CAD reads."""
 
+from __future__ import annotations
+
 import sys
 from contextlib import ExitStack
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
-import numpy as np
 import typer
 
-from ..errors import SolveError, points_called
-from ..fit import huber, squares, tessellate
-from ..io import MESH_SUFFIXES, check_output, replacing, write_mesh, write_uv
-from ..report import boundary_lines, intersection_lines, run_report, writing_json
-from ..surface_io import CAD_SUFFIXES, write_cad, write_surface_json
-from ..surface_io.occ import check_extra
-from ..surface_picture import draw_deviation, draw_reflections
-from ..surface_report import explain_lines, surface_lines, surface_report
-from ..surfacing import SurfacedScan, check_met, fit_scan
-from ..typing import Points
 from . import options as given
-from .choices import (
-    GAPS,
-    Domain,
-    Holes,
-    Spacing,
-    SurfaceDomain,
-    Unit,
-    amount,
-    corner_names,
-    fairness_weight,
-    layout_rule,
-    outer_place,
-)
-from .inputs import Inputs, read_inputs
-from .output import carried, given_options
 from .progress import staged
+from .words import Domain, Holes, Spacing, SurfaceDomain, Unit
+
+if TYPE_CHECKING:
+    from ..surfacing import SurfacedScan
+    from ..typing import Points
+    from .inputs import Inputs
 
 TESSELLATED = 100_000  # points of the mesh of a surface
 HOLD_DEVIATIONS = (".csv", ".ply", ".npz")
@@ -112,10 +94,25 @@ def fit(
         Path | None, typer.Option("--reflections", metavar="PNG", help="Draw reflection lines and curvature.")
     ] = None,
     explain: Annotated[bool, typer.Option("--explain", help="Say which choices were made and why.")] = False,
+    threads: given.ThreadsOption = None,
     report: given.ReportOption = None,
     quiet: given.QuietOption = False,
 ) -> None:
     """Fit a trimmed B-spline surface to a scan of one surface patch, to a tolerance, for CAD."""
+    from .._parallel import on_threads
+    from ..errors import points_called
+    from ..fit import huber, squares
+    from ..io import MESH_SUFFIXES, check_output, replacing
+    from ..report import boundary_lines, intersection_lines, run_report, writing_json
+    from ..surface_io import CAD_SUFFIXES
+    from ..surface_io.occ import check_extra
+    from ..surface_picture import draw_deviation, draw_reflections
+    from ..surface_report import explain_lines, surface_lines, surface_report
+    from ..surfacing import fit_scan
+    from .choices import GAPS, amount, corner_names, fairness_weight, layout_rule, outer_place
+    from .inputs import read_inputs
+    from .output import given_options
+
     allowed_of, place = amount("--tolerance", tolerance, positive=True), outer_place(outer, boundary)
     share, fair = amount("--outliers", outliers, below=1.0)(1.0), fairness_weight(fairness)
     named = corner_names(domain, corners)
@@ -130,7 +127,7 @@ def fit(
         scan, boundary, named, out=out, suffixes=(*CAD_SUFFIXES, ".json", *MESH_SUFFIXES), component=component
     )
     allowed = allowed_of(_diagonal(inputs.points))
-    with staged(quiet) as clock, points_called(inputs.rows):
+    with on_threads(threads), staged(quiet) as clock, points_called(inputs.rows):
         surfaced = fit_scan(
             inputs.points,
             inputs.loop,
@@ -176,12 +173,17 @@ def fit(
 
 def _diagonal(points: Points) -> float:
     """Return the diagonal of the box around points; what is not finite in them is named later."""
+    import numpy as np
+
     with np.errstate(invalid="ignore", over="ignore"):
         return float(np.hypot.reduce(np.ptp(points, axis=0)))
 
 
 def _check_met(surfaced: SurfacedScan, tolerance: float, outliers: float) -> None:
     """Check that the tolerance is met, naming the options that help where it is not."""
+    from ..errors import SolveError
+    from ..surfacing import check_met
+
     try:
         check_met(surfaced, tolerance, outliers)
     except SolveError as unmet:
@@ -190,6 +192,11 @@ def _check_met(surfaced: SurfacedScan, tolerance: float, outliers: float) -> Non
 
 
 def _write_deviations(path: Path, surfaced: SurfacedScan, inputs: Inputs) -> None:
+    import numpy as np
+
+    from ..io import write_uv
+    from .output import carried
+
     rows, uv, signed = inputs.rows[surfaced.reconstruction.rows], surfaced.fit.uv, surfaced.deviation.signed
     points = inputs.scan.points[rows]
     if path.suffix.lower() == ".csv":
@@ -200,6 +207,10 @@ def _write_deviations(path: Path, surfaced: SurfacedScan, inputs: Inputs) -> Non
 
 
 def _write_surface(out: Path, surfaced: SurfacedScan, unit: Unit) -> None:
+    from ..fit import tessellate
+    from ..io import write_mesh
+    from ..surface_io import CAD_SUFFIXES, write_cad, write_surface_json
+
     surface, loops, suffix = surfaced.fit.surface, surfaced.loops, out.suffix.lower()
     if suffix in CAD_SUFFIXES:
         write_cad(out, surface, loops, unit=unit, name=out.stem)

@@ -11,7 +11,7 @@ from ..components import largest_component
 from ..errors import InputError
 from ..io import Scan, check_output, read_loop, read_scan
 from ..typing import Indices, Loop, Points
-from .choices import Component
+from .words import Component
 
 
 @dataclass(frozen=True, slots=True, eq=False)

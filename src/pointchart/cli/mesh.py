@@ -1,35 +1,20 @@
 """``pointchart mesh``: from a scan to a certified disc."""
 
+from __future__ import annotations
+
 import sys
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ..errors import points_called
-from ..io import MESH_SUFFIXES, write_mesh
-from ..pipeline import reconstruct
-from ..quality import vertex_stretches
-from ..report import boundary_lines, certificate_lines, intersection_lines, run_report, summary, writing_json
-from ..typing import Indices
 from . import options as given
-from .choices import (
-    CHARTS,
-    GAPS,
-    SWAPS,
-    Chart,
-    Domain,
-    Spacing,
-    Swap,
-    connect_rule,
-    corner_names,
-    layout_rule,
-    outer_place,
-    weights_rule,
-)
-from .inputs import Inputs, read_inputs
-from .output import carried, given_options
 from .progress import staged
+from .words import Chart, Domain, Spacing, Swap
+
+if TYPE_CHECKING:
+    from ..typing import Indices
+    from .inputs import Inputs
 
 HOLD_STRETCH = (".ply", ".npz")
 
@@ -61,14 +46,25 @@ def mesh(
             help="Parameters: one-to-one on the mesh, with low stretch, with a free boundary, or the paper's own.",
         ),
     ] = Chart.mesh,
+    threads: given.ThreadsOption = None,
     report: given.ReportOption = None,
     quiet: given.QuietOption = False,
 ) -> None:
     """Mesh a scan of one surface patch: a triangle mesh on exactly its points, certified to be a disc, with uv."""
+    from .._parallel import on_threads
+    from ..errors import points_called
+    from ..io import MESH_SUFFIXES, write_mesh
+    from ..pipeline import reconstruct
+    from ..quality import vertex_stretches
+    from ..report import boundary_lines, certificate_lines, intersection_lines, run_report, summary, writing_json
+    from .choices import CHARTS, GAPS, SWAPS, connect_rule, corner_names, layout_rule, outer_place, weights_rule
+    from .inputs import read_inputs
+    from .output import carried, given_options
+
     connect, place = connect_rule(neighbors, k, radius), outer_place(outer, boundary)
     named = corner_names(domain, corners)
     inputs = read_inputs(scan, boundary, named, out=out, suffixes=MESH_SUFFIXES, report=report, component=component)
-    with staged(quiet) as clock, points_called(inputs.rows):
+    with on_threads(threads), staged(quiet) as clock, points_called(inputs.rows):
         result = reconstruct(
             inputs.points,
             inputs.loop,

@@ -5,7 +5,7 @@ from typing import Annotated
 
 import typer
 
-from .choices import Component, Domain, Holes, Neighbors, Spacing, Weighting
+from .words import Component, Domain, Holes, Neighbors, Spacing, Weighting
 
 ScanArgument = Annotated[
     Path,
@@ -67,6 +67,10 @@ CornersOption = Annotated[
     ),
 ]
 SpacingOption = Annotated[Spacing, typer.Option("--spacing", help="Spacing of the parameters along the boundary.")]
+ThreadsOption = Annotated[
+    int | None,
+    typer.Option("--threads", min=1, help="Number of threads; by default the cores that the process may use."),
+]
 ReportOption = Annotated[
     Path | None, typer.Option("--report", metavar="RUN.json", help="Write what was done and proved as JSON.")
 ]

@@ -6,23 +6,9 @@ from typing import Annotated, Any
 
 import typer
 
-from ..io import UV_SUFFIXES, write_uv
-from ..pipeline import parameterize_scan
-from ..report import solve_report, stages_report, writing_json
-from ..triangulate import coinciding
 from . import options as given
-from .choices import (
-    Domain,
-    Spacing,
-    connect_rule,
-    corner_names,
-    layout_rule,
-    outer_place,
-    weights_rule,
-)
-from .inputs import read_inputs
-from .output import carried, given_options
 from .progress import staged
+from .words import Domain, Spacing
 
 
 def param(
@@ -40,14 +26,24 @@ def param(
     domain: given.DomainOption = Domain.circle,
     corners: given.CornersOption = None,
     spacing: given.SpacingOption = Spacing.chord,
+    threads: given.ThreadsOption = None,
     report: given.ReportOption = None,
     quiet: given.QuietOption = False,
 ) -> None:
     """Give every point of a scan planar parameters by the paper's method, without a mesh; row i is point i."""
+    from .._parallel import on_threads
+    from ..io import UV_SUFFIXES, write_uv
+    from ..pipeline import parameterize_scan
+    from ..report import solve_report, stages_report, writing_json
+    from ..triangulate import coinciding
+    from .choices import connect_rule, corner_names, layout_rule, outer_place, weights_rule
+    from .inputs import read_inputs
+    from .output import carried, given_options
+
     connect, place = connect_rule(neighbors, k, radius), outer_place(outer, boundary)
     named = corner_names(domain, corners)
     inputs = read_inputs(scan, boundary, named, out=out, suffixes=UV_SUFFIXES, report=report)
-    with staged(quiet) as clock:
+    with on_threads(threads), staged(quiet) as clock:
         survey, mapped = parameterize_scan(
             inputs.points,
             inputs.loop,
