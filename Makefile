@@ -1,7 +1,8 @@
 PYTHON ?= python3
 BIN := .venv/bin
+PEERS ?= $(BIN)/python
 
-.PHONY: help demo test check format docs bench clean
+.PHONY: help demo test check format docs bench tables clean
 
 help:  ## print this menu
 	@awk -F ':.*## ' '/^[a-z]+:.*## /{printf "make %-8s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -31,13 +32,16 @@ format: .venv/dev  ## format and sort imports
 	$(BIN)/ruff format .
 	$(BIN)/ruff check --fix .
 
-bench: .venv/dev  ## reproduce the paper's tables, measure boundaries, hard scans, creases and surfaces, time the stages
+bench: .venv/dev  ## time whole calls, stages, memory and start-up, in ten minutes; PEERS=PYTHON that has other programs
+	$(BIN)/python benchmarks/speed.py --peers $(PEERS)
+	$(BIN)/python benchmarks/startup.py
+
+tables: .venv/dev  ## reproduce the paper's tables, measure boundaries, hard scans, creases and surfaces
 	$(BIN)/python benchmarks/paper.py
 	$(BIN)/python benchmarks/boundaries.py
 	$(BIN)/python benchmarks/hard_scans.py
 	$(BIN)/python benchmarks/creases.py
 	$(BIN)/python benchmarks/surfaces.py
-	$(BIN)/python benchmarks/stages.py
 
 docs: .venv/dev  ## draw the pictures of the docs
 	$(BIN)/python benchmarks/figures.py docs/figures

@@ -8,6 +8,7 @@ in JSON: the seconds of the call alone, with the points in the program's own for
 pointchart also those of its stages, of the library calls that it is compared with, and its memory (Linux only).
 """
 
+import ctypes
 import json
 import os
 import re
@@ -29,9 +30,15 @@ def seconds(call):
 
 
 def memory(field):
-    """Return a field of this process's status in bytes; that of `resource` would begin at the parent's."""
+    """Return a field of this process's status in bytes; the peak of `resource` would begin at the parent's."""
     status = Path("/proc/self/status").read_text()
     return 1024 * int(re.search(rf"{field}:\s+(\d+) kB", status)[1])
+
+
+def forget_peak():
+    """Give back what is free and start the peak of memory anew, so that an earlier call does not show in a later."""
+    ctypes.CDLL(None).malloc_trim(0)
+    Path("/proc/self/clear_refs").write_text("5")
 
 
 def pointchart(points):
@@ -42,6 +49,7 @@ def pointchart(points):
     from pointchart import StageClock, reconstruct
     from pointchart.morton import morton_order
 
+    forget_peak()
     clock, before = StageClock(), memory("VmRSS")
     whole, found = seconds(lambda: reconstruct(points, clock=clock))
     peak = memory("VmHWM")

@@ -3,11 +3,12 @@
 from collections.abc import Sequence
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 REPEATS = 5
 
 
-def ratio(ours: Sequence[float], theirs: Sequence[float]) -> str:
+def ratio(ours: ArrayLike, theirs: ArrayLike) -> str:
     """Return the ratio of medians, and the least and the greatest ratio of two measures of the same turn."""
     turns = np.array(ours) / np.array(theirs)
     return f"{np.median(ours) / np.median(theirs):.2f} ({turns.min():.2f} to {turns.max():.2f})"

@@ -4,15 +4,15 @@
                                [--repeats 5] [--limit 30] [--data DIR] [--json FILE]
 
 A whole call is `reconstruct(points)` with no options: boundary found, parameters and certificate included, files apart.
-The clouds are a sculpted face of any size and real scans whose true surface is
-subdivided by Loop's scheme, four times the points a round; all in shuffled order.
+The clouds are a sculpted face of any size, and real scans whose true surface is subdivided by Loop's scheme, four times
+the points a round; all in shuffled order.
 
 The other programs are those of MeshLib, PyMeshLab (ball pivoting) and CGAL (advancing front) that the interpreter
 PYTHON has installed; another virtual environment does. They get the same points, and make triangles alone. One that
 takes over the limit of seconds on a cloud is left out there.
 
-Every program has a process of its own for each cloud, warmed by a small cloud, and all take turns: the figures of a
-turn are of the same minute. Tables in Markdown, of medians over the turns; JSON has every turn. Progress is on stderr.
+Every program has a process of its own for each cloud, and all take turns, so that the figures of a turn are of the same
+minutes; the first turn does not count. Tables in Markdown show medians; JSON has every turn. Progress is on stderr.
 """
 
 import argparse
@@ -36,7 +36,6 @@ from ratios import REPEATS, exponent, ratio
 
 OURS = "pointchart"
 PEERS = {"meshlib": "MeshLib", "pymeshlab": "PyMeshLab", "cgal": "CGAL"}
-WARM = 2_000  # points
 
 
 class Program:
@@ -100,12 +99,12 @@ class Race:
                 self.turns.pop(name, None)
 
     def every(self, figure: str, name: str = OURS) -> list[float]:
-        """Return one figure of every turn."""
-        return [turn[figure] for turn in self.turns[name]]
+        """Return one figure of every turn; none where the program is out."""
+        return [turn[figure] for turn in self.turns.get(name, [])]
 
-    def median(self, figure: str, name: str = OURS) -> float:
-        """Return the median of a figure."""
-        return float(np.median(self.every(figure, name)))
+    def median(self, figure: str) -> float:
+        """Return the median of a figure of ours."""
+        return float(np.median(self.every(figure)))
 
     def stage(self, name: str) -> float:
         """Return the median time of a stage of ours; a turn without the stage counts as 0."""
@@ -130,13 +129,8 @@ def whole_calls(races: list[Race], versions: dict[str, str]) -> str:
     for race in races:
         row = [race.cloud.surface, f"{race.cloud.n_points:,}", f"{race.median('seconds'):.2f}"]
         for name in versions:
-            if name in race.turns:
-                row += [
-                    f"{race.median('seconds', name):.2f}",
-                    ratio(race.every("seconds"), race.every("seconds", name)),
-                ]
-            else:
-                row += ["left out", ""]
+            theirs = race.every("seconds", name)
+            row += [f"{np.median(theirs):.2f}", ratio(race.every("seconds"), theirs)] if theirs else ["left out", ""]
         rows.append(tuple(row))
     return markdown(tuple(head), rows)
 
@@ -145,14 +139,15 @@ def stages(races: list[Race]) -> str:
     """Show the stages over the number of points of one surface, as multiples of a search, and how they grow."""
     sizes = [race.cloud.n_points for race in races]
     units = [race.median("search") for race in races]
-    names = dict.fromkeys(name for race in races for turn in race.turns[OURS] for name in turn["stages"])
+    turns = sorted((turn["stages"] for race in races for turn in race.turns[OURS]), key=len, reverse=True)
+    names = dict.fromkeys(name for turn in turns for name in turn)
     times = {name: [race.stage(name) for race in races] for name in names}
     times["whole"] = [race.median("seconds") for race in races]
     rows = [(f"search of {UNIT} nearest, seconds", *(f"{unit:.3f}" for unit in units), exponent(sizes, units))]
     for name, medians in times.items():
         multiples = (f"{median / unit:.2f}" for median, unit in zip(medians, units, strict=True))
         rows.append((f"{name}, times the search", *multiples, exponent(sizes, medians)))
-    peaks = (f"{race.turns[OURS][0]['bytes'] / race.cloud.n_points:,.0f}" for race in races)
+    peaks = (f"{race.median('bytes') / race.cloud.n_points:,.0f}" for race in races)
     rows.append(("peak memory, bytes a point", *peaks, ""))
     return markdown(("stage", *(f"{n:,} points" for n in sizes), "exponent"), rows)
 
@@ -161,33 +156,25 @@ def floors(races: list[Race]) -> str:
     """Show what two library calls that no way can do without take of the whole."""
     rows = []
     for race in races:
-        parts = [race.every("floor search"), race.every("floor delaunay")]
-        floor = [sum(turn) for turn in zip(*parts, strict=True)]
-        cells = (f"{np.median(part):.3f}" for part in (*parts, race.every("seconds")))
-        rows.append((race.cloud.surface, f"{race.cloud.n_points:,}", *cells, ratio(floor, race.every("seconds"))))
-    head = (
-        "surface",
-        "points",
-        f"search of {FLOOR} nearest",
-        "Delaunay triangulation of uv",
-        "whole",
-        "floor over whole",
-    )
-    return markdown(head, rows)
+        search, delaunay, whole = (race.every(name) for name in ("floor search", "floor delaunay", "seconds"))
+        cells = (f"{np.median(seconds):.3f}" for seconds in (search, delaunay, whole))
+        rows.append((race.cloud.surface, f"{race.cloud.n_points:,}", *cells, ratio(np.add(search, delaunay), whole)))
+    parts = (f"search of {FLOOR} nearest", "Delaunay triangulation of uv")
+    return markdown(("surface", "points", *parts, "whole", "floor over whole"), rows)
 
 
-def race_all(clouds: list[Cloud], warm: Cloud, versions: dict[str, str], options: argparse.Namespace) -> list[Race]:
+def race_all(clouds: list[Cloud], versions: dict[str, str], options: argparse.Namespace) -> list[Race]:
     """Run all programs on all clouds in turn."""
     races = []
     for cloud in clouds:
         peers = {name: Program(name, options.peers, options.limit) for name in versions}
-        programs = {OURS: Program(OURS, sys.executable)} | peers
-        Race(warm, programs).take_turns()
-        races.append(Race(cloud, programs))
-    for turn in range(options.repeats):
-        print(f"turn {turn + 1} of {options.repeats}", file=sys.stderr)
+        races.append(Race(cloud, {OURS: Program(OURS, sys.executable)} | peers))
+    for turn in range(options.repeats + 1):
+        print(f"turn {turn} of {options.repeats}", file=sys.stderr)
         for race in races:
             race.take_turns()
+            if turn == 0:  # code may have been compiled
+                race.turns.clear()
     return races
 
 
@@ -205,17 +192,16 @@ def main() -> None:
     versions = installed(options.peers)
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        (warm,) = simulated([WARM], folder)
         clouds = [
             *simulated(options.points, folder),
             *subdivided(options.scans, options.rounds, options.data, folder),
         ]
-        races = race_all(clouds, warm, versions, options)
+        races = race_all(clouds, versions, options)
     if versions:
-        print(f"Whole calls, in seconds:\n\n{whole_calls(races, versions)}\n")
+        print(f"### Whole calls, in seconds\n\n{whole_calls(races, versions)}\n")
     for surface, group in groupby(races, key=lambda race: race.cloud.surface):
-        print(f"Stages, {surface}:\n\n{stages(list(group))}\n")
-    print(f"The floor, in seconds:\n\n{floors(races)}")
+        print(f"### Stages: {surface}\n\n{stages(list(group))}\n")
+    print(f"### The floor, in seconds\n\n{floors(races)}\n")
     if options.json:
         turns = [{"surface": race.cloud.surface, "points": race.cloud.n_points, "turns": race.turns} for race in races]
         options.json.write_text(json.dumps({"cores": os.cpu_count(), "versions": versions, "clouds": turns}, indent=1))

@@ -66,7 +66,7 @@ def main() -> None:
         )
         for name in (UNIT, HELP, AGAIN, FIRST)
     ]
-    print(f"Whole processes, `mesh` of {N:,} points:\n")
+    print(f"### Start-up: whole processes, {N:,} points\n")
     print(markdown(("process", "seconds", f"over {UNIT}", "over mesh, again"), rows))
     if options.json:
         options.json.write_text(json.dumps(found, indent=1))

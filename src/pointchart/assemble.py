@@ -61,7 +61,7 @@ def assemble(points: Points, surface: Patchwork, loop: Loop) -> Assembled | None
            [4, 3, 0]])
     """
     n = len(points)
-    cleared = _cleared(surface)
+    cleared = _cleared(surface, loop)
     if cleared is None:
         return None
     corners, twins, loops = cleared
@@ -86,12 +86,14 @@ def assemble(points: Points, surface: Patchwork, loop: Loop) -> Assembled | None
     return Assembled(triangles if runs_along else np.ascontiguousarray(triangles[:, ::-1]), len(pockets))
 
 
-def _cleared(surface: Patchwork) -> tuple[Indices, Indices, list[Indices]] | None:
+def _cleared(surface: Patchwork, loop: Loop) -> tuple[Indices, Indices, list[Indices]] | None:
     """Drop fans at which a surface is pinched, other than by pockets that touch; None if that goes on and on.
 
     Returns corners and twins of the half-edges that are left, and the half-edges of each loop of their boundary.
     """
     n = surface.n_points
+    ahead, behind = np.full(n, -1, np.int32), np.full(n, -1, np.int32)
+    ahead[loop], behind[loop] = np.roll(loop, -1), np.roll(loop, 1)
     is_kept = surface.part == np.argmax(np.bincount(surface.part[surface.part >= 0], minlength=1))
     for _ in range(ROUNDS):
         number = np.where(is_kept, np.cumsum(is_kept, dtype=np.int32) - 1, -1)
@@ -100,7 +102,7 @@ def _cleared(surface: Patchwork) -> tuple[Indices, Indices, list[Indices]] | Non
         to_half_edges(surface.triangles, surface.edge_of, surface.sides, number, corners, twins)
         mark_rims(twins, rim)
         still, first = np.ones(m, np.bool_), np.full(n, -1, np.int32)
-        if mark_pinching(corners, twins, rim, first, still) == 0:
+        if mark_pinching(corners, twins, rim, ahead, behind, first, still) == 0:
             n_rim = int((twins < 0).sum())
             loops, starts, path = np.empty(n_rim, np.int64), np.empty(n_rim + 1, np.int64), np.empty(n_rim, np.int64)
             count, n_tangled = cut_walks(corners, twins, np.full(n, -1, np.int32), path, loops, starts, still)

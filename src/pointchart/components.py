@@ -1,9 +1,9 @@
 """The parts that a scan falls into."""
 
 import numpy as np
-import scipy.sparse as sp
 from numpy.typing import ArrayLike
 
+from ._kernels.graphs import join_parts
 from .errors import InputError
 from .neighbors import Neighborhoods, nearest
 from .neighbors import spacing as local_spacing
@@ -23,14 +23,13 @@ def label_parts(points: Points, around: Neighborhoods, spacing: Floats) -> Indic
     >>> label_parts(points, nearest(points, 4), np.ones(5))
     array([1, 1, 0, 0, 0])
     """
-    n, rows = around.n_points, around.rows
-    length = np.linalg.norm(points[around.indices] - points[rows], axis=1)
-    joins = length <= APART * np.minimum(spacing[rows], spacing[around.indices])
-    graph = sp.csr_array((joins[joins], (rows[joins], around.indices[joins])), shape=(n, n))
-    labels = sp.csgraph.connected_components(graph, directed=False)[1]
-    rank = np.empty(labels.max() + 1, np.int64)
-    rank[np.argsort(-np.bincount(labels), kind="stable")] = np.arange(len(rank))
-    return np.asarray(rank[labels])
+    part = np.empty(around.n_points, np.int32)
+    join_parts(points, around.indptr, around.indices, spacing, APART, part)
+    sizes = np.bincount(part)
+    seeds = np.flatnonzero(sizes)
+    rank = np.empty(len(sizes), np.int64)
+    rank[seeds[np.argsort(-sizes[seeds], kind="stable")]] = np.arange(len(seeds))
+    return np.asarray(rank[part])
 
 
 def check_one_piece(points: Points, around: Neighborhoods, spacing: Floats) -> None:

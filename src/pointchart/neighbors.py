@@ -7,9 +7,11 @@ from numpy.typing import ArrayLike
 from scipy.spatial import cKDTree
 
 from ._check import check_neighbors, check_points
+from ._kernels.nearest import LEAF, bound_boxes, find_nearest, middle_distances
 from ._parallel import over_ranges
 from .errors import InputError
-from .typing import Floats, Indices, Mask
+from .morton import morton_order
+from .typing import Floats, Indices, Mask, Points
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -20,19 +22,23 @@ class Neighborhoods:
     ----------
     indptr : (n + 1,) int64
         Point i has the neighbours ``indices[indptr[i]:indptr[i + 1]]``.
-    indices : (nnz,) int64
+    indices : (nnz,) int32 or int64
         Neighbours; never the point itself, none twice in a row.
     local : (nnz, 2) float64 or None
         Positions of the neighbours in the tangent plane of their centre, if they are ordered: anticlockwise.
     is_open : (n,) bool or None
         For ordered neighbours: whether the star has a gap of at least pi, as it has on the boundary. The gap then lies
         between the last neighbour and the first.
+    width : (n,) float64 or None
+        For Delaunay stars: the largest radius of a circle through the centre and two neighbours that follow each other;
+        infinite if the star is open.
     """
 
     indptr: Indices
     indices: Indices
     local: Floats | None = None
     is_open: Mask | None = None
+    width: Floats | None = None
 
     @property
     def n_points(self) -> int:
@@ -154,9 +160,55 @@ def nearest(points: ArrayLike, k: int = 20) -> Neighborhoods:
     cloud = check_points(points)
     if k < 1:
         raise InputError(f"k is {k}; every point needs at least one neighbour, and 8 to 30 work well")
-    n, k = len(cloud), min(k, len(cloud) - 1)
-    found = search(cKDTree(cloud), cloud, k + 1)[1]
-    return Neighborhoods(np.arange(0, n * k + 1, k), without(np.arange(n), found).ravel())
+    order = morton_order(cloud)
+    place = np.empty(len(cloud), np.int32)
+    place[order] = np.arange(len(cloud), dtype=np.int32)
+    found = BoxTree(np.ascontiguousarray(cloud[order])).nearest(k, place)
+    return rectangular(order.astype(np.int32)[found])
+
+
+def rectangular(found: Indices) -> Neighborhoods:
+    """Make neighbourhoods of the same number of neighbours for each point, (n, k)."""
+    n, k = found.shape
+    return Neighborhoods(np.arange(0, n * k + 1, k), found.ravel())
+
+
+class BoxTree:
+    """A search tree over points that are in spatial order already; see `morton_order`.
+
+    Parameters
+    ----------
+    points : (n, 3) float64 array
+
+    Examples
+    --------
+    >>> BoxTree(np.array([[0.0, 0, 0], [1, 0, 0], [3, 0, 0], [3, 1, 0]])).nearest(1)
+    array([[1],
+           [0],
+           [3],
+           [2]], dtype=int32)
+    """
+
+    def __init__(self, points: Points) -> None:
+        leaves = 1
+        while leaves * LEAF < len(points):
+            leaves *= 2
+        self._points = points
+        self._low, self._high = np.empty((2 * leaves, 3)), np.empty((2 * leaves, 3))
+        bound_boxes(points, self._low, self._high)
+
+    def nearest(self, k: int, queries: Indices | None = None) -> Indices:
+        """Find the `k` nearest others of some points, or of all, nearest first: (q, k) int32; all if there are fewer."""
+        points = self._points
+        places = np.arange(len(points), dtype=np.int32) if queries is None else queries
+        found = np.empty((len(places), min(k, len(points) - 1)), np.int32)
+
+        def find(first: int, last: int) -> None:
+            squares = np.empty((last - first, found.shape[1]))
+            find_nearest(points, self._low, self._high, places[first:last], 0, last - first, found[first:last], squares)
+
+        over_ranges(find, len(places))
+        return found
 
 
 def search(tree: cKDTree, points: Floats, k: int) -> tuple[Floats, Indices]:
@@ -175,13 +227,6 @@ def search(tree: cKDTree, points: Floats, k: int) -> tuple[Floats, Indices]:
 
     over_ranges(query, len(points))
     return distance, index
-
-
-def without(points: Indices, found: Indices) -> Indices:
-    """Drop each point from its own row of nearest points, or the farthest where rounding has pushed it out."""
-    own = found == points[:, None]
-    own[~own.any(axis=1), -1] = True
-    return np.asarray(found[~own].reshape(len(found), -1))
 
 
 def spacing(points: ArrayLike, *, k: int = 6, around: Neighborhoods | None = None) -> Floats:
@@ -206,11 +251,13 @@ def spacing(points: ArrayLike, *, k: int = 6, around: Neighborhoods | None = Non
     cloud = check_points(points)
     found = nearest(cloud, k) if around is None else around
     check_neighbors(found.indices, found.n_points, len(cloud))
-    if len(np.unique(found.sizes)) > 1:
+    if found.sizes.min() != found.sizes.max():
         raise InputError("the spacing needs the same number of nearest neighbours for every point; use nearest")
-    closest = found.indices.reshape(len(cloud), -1)
-    count = min(k, closest.shape[1])
+    count = min(k, int(found.sizes[0]))
     # Neighbours are sorted by distance: the median is that of the middle one, or the mean of the middle two.
-    middle = {(count - 1) // 2, count // 2}
-    lengths = [np.linalg.norm(cloud[closest[:, place]] - cloud, axis=1) for place in middle]
-    return np.asarray(sum(lengths) / len(lengths))
+    one, other, result = (count - 1) // 2, count // 2, np.empty(len(cloud))
+    over_ranges(
+        lambda first, last: middle_distances(cloud, found.indptr, found.indices, one, other, first, last, result),
+        len(cloud),
+    )
+    return result

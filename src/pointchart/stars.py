@@ -2,13 +2,12 @@
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.spatial import cKDTree
 
 from ._check import check_neighbors, check_points
 from ._kernels.planes import fit_planes
 from ._kernels.stars import delaunay_stars as stars_kernel
 from ._parallel import over_ranges
-from .neighbors import Neighborhoods, search, without
+from .neighbors import BoxTree, Neighborhoods
 from .typing import Floats, Indices, Mask, Points
 
 STEEPEST = 0.8  # sine of the steepest neighbour against the tangent plane; steeper ones lie on another sheet
@@ -136,7 +135,7 @@ def delaunay_star(points: ArrayLike, around: Neighborhoods, *, planes: Neighborh
     """
     cloud = check_points(points)
     check_neighbors(around.indices, around.n_points, len(cloud))
-    return _compact(around, *_stars(cloud, normals(cloud, planes or around), around)[:4])
+    return _stars(cloud, normals(cloud, planes or around), around)[0]
 
 
 def nearest_star(points: ArrayLike, around: Neighborhoods) -> Neighborhoods:
@@ -170,34 +169,32 @@ def nearest_star(points: ArrayLike, around: Neighborhoods) -> Neighborhoods:
     cloud = check_points(points)
     check_neighbors(around.indices, around.n_points, len(cloud))
     normal = normals(cloud, around, fading=FADING)
-    star, local, count, is_open, diameter = _stars(cloud, normal, around)
-    found = _compact(around, star, local, count, is_open)
+    found, diameter = _stars(cloud, normal, around)
     reach = np.linalg.norm(cloud[around.indices[around.indptr[1:] - 1]] - cloud, axis=1)
-    short = np.flatnonzero(~is_open & (diameter > reach))
+    short = np.flatnonzero(~np.asarray(found.is_open) & (diameter > reach))
     wide = min(WIDER * int(around.sizes.max()), len(cloud) - 1)
     if len(short) == 0 or wide <= around.sizes.max():
         return found
-    candidates = without(short, search(cKDTree(cloud), cloud[short], wide + 1)[1])
     sizes = np.zeros(len(cloud), np.int64)
     sizes[short] = wide
+    candidates = BoxTree(cloud).nearest(wide, short)
     widened = Neighborhoods(np.concatenate([[0], np.cumsum(sizes)]), candidates.ravel())
-    again = _compact(widened, *_stars(cloud, normal, widened)[:4])
-    return _replace_rows(found, short, again)
+    return _with_rows(found, short, _stars(cloud, normal, widened)[0])
 
 
-def _replace_rows(found: Neighborhoods, rows: Indices, by: Neighborhoods) -> Neighborhoods:
-    """Take some stars from other neighbourhoods, which hold those alone."""
-    is_replaced = np.zeros(found.n_points, bool)
-    is_replaced[rows] = True
-    kept = ~np.repeat(is_replaced, found.sizes)
-    centers = np.concatenate([found.rows[kept], by.rows])
-    order = np.argsort(centers, kind="stable")
-    indptr = np.concatenate([[0], np.cumsum(np.bincount(centers, minlength=found.n_points))])
-    indices = np.concatenate([found.indices[kept], by.indices])[order]
-    if found.local is None or by.local is None or found.is_open is None or by.is_open is None:
-        return Neighborhoods(indptr, indices)
-    local = np.concatenate([found.local[kept], by.local])[order]
-    return Neighborhoods(indptr, indices, local, np.where(is_replaced, by.is_open, found.is_open))
+def _with_rows(found: Neighborhoods, rows: Indices, by: Neighborhoods) -> Neighborhoods:
+    """Take some stars from other ones."""
+    sizes = found.sizes.copy()
+    sizes[rows] = by.sizes[rows]
+    indptr = np.concatenate([[0], np.cumsum(sizes)])
+    is_new = np.zeros(found.n_points, bool)
+    is_new[rows] = True
+    of_new, of_old = np.repeat(is_new, sizes), np.repeat(~is_new, found.sizes)
+    indices, local = np.empty(indptr[-1], found.indices.dtype), np.empty((indptr[-1], 2))
+    indices[of_new], indices[~of_new] = by.indices, found.indices[of_old]
+    local[of_new], local[~of_new] = by.local, np.asarray(found.local)[of_old]
+    is_open, width = np.where(is_new, by.is_open, found.is_open), np.where(is_new, by.width, found.width)
+    return Neighborhoods(indptr, indices, local, is_open, width)
 
 
 def _planes(cloud: Points, around: Neighborhoods, fading: float) -> tuple[Floats, Floats]:
@@ -210,20 +207,21 @@ def _planes(cloud: Points, around: Neighborhoods, fading: float) -> tuple[Floats
     return normal, offset
 
 
-def _stars(cloud: Points, normal: Floats, around: Neighborhoods) -> tuple[Indices, Floats, Indices, Mask, Floats]:
-    star, local = np.empty_like(around.indices), np.empty((len(around.indices), 2))
-    count, is_open = np.empty(len(cloud), np.int64), np.empty(len(cloud), np.bool_)
-    diameter = np.empty(len(cloud))
-    over_ranges(
-        lambda first, last: stars_kernel(
+def _stars(cloud: Points, normal: Floats, around: Neighborhoods) -> tuple[Neighborhoods, Floats]:
+    """Find all stars; return the diameter of the largest circle of each, too, open or not."""
+    n = len(cloud)
+    count, is_open, diameter = np.empty(n, np.int64), np.empty(n, np.bool_), np.empty(n)
+    parts: dict[int, tuple[Indices, Floats]] = {}
+
+    def find(first: int, last: int) -> None:
+        room = int(around.indptr[last] - around.indptr[first])
+        star, local = np.empty(room, around.indices.dtype), np.empty((room, 2))
+        size = stars_kernel(
             cloud, normal, around.indptr, around.indices, STEEPEST, first, last, star, local, count, is_open, diameter
-        ),
-        len(cloud),
-    )
-    return star, local, count, is_open, diameter
+        )
+        parts[first] = star[:size].copy(), local[:size].copy()
 
-
-def _compact(around: Neighborhoods, star: Indices, local: Floats, count: Indices, is_open: Mask) -> Neighborhoods:
-    """Close the places that candidates left free."""
-    taken = np.arange(len(star)) - np.repeat(around.indptr[:-1], around.sizes) < np.repeat(count, around.sizes)
-    return Neighborhoods(np.concatenate([[0], np.cumsum(count)]), star[taken], local[taken], is_open)
+    over_ranges(find, n)
+    indices, local = (np.concatenate([parts[first][k] for first in sorted(parts)]) for k in range(2))
+    width = np.where(is_open, np.inf, 0.5 * diameter)
+    return Neighborhoods(np.concatenate([[0], np.cumsum(count)]), indices, local, is_open, width), diameter

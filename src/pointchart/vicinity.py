@@ -1,11 +1,11 @@
 """What is around each point: the nearest points, how far apart they are, and the star on the smoothed surface."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from numpy.typing import ArrayLike
 
 from ._check import check_points
-from .neighbors import Neighborhoods, nearest
+from .neighbors import BoxTree, Neighborhoods, rectangular
 from .neighbors import spacing as local_spacing
 from .stars import break_ties, nearest_star, smooth
 from .typing import Floats, Points
@@ -26,7 +26,8 @@ class Vicinity:
     smoothed : (n, 3) float64
         The points with less noise across the surface.
     star : Neighborhoods
-        Delaunay stars of the smoothed points, in general position: neighbouring stars can agree on grids too.
+        Delaunay stars of the smoothed points, in general position: neighbouring stars can agree on grids too. Without
+        positions in the planes.
     """
 
     around: Neighborhoods
@@ -41,7 +42,7 @@ def explore(points: ArrayLike) -> Vicinity:
     Parameters
     ----------
     points : (n, 3) array
-        Distinct points.
+        Distinct points, in spatial order; in any other the search takes long.
 
     Returns
     -------
@@ -55,7 +56,8 @@ def explore(points: ArrayLike) -> Vicinity:
     (20, 1.0)
     """
     cloud = check_points(points)
-    around = nearest(cloud, NEAREST)
+    around = rectangular(BoxTree(cloud).nearest(NEAREST))
     spacing = local_spacing(cloud, around=around)
     smoothed = smooth(cloud, around)
-    return Vicinity(around, spacing, smoothed, nearest_star(break_ties(smoothed, spacing), around))
+    star = replace(nearest_star(break_ties(smoothed, spacing), around), local=None)
+    return Vicinity(around, spacing, smoothed, star)

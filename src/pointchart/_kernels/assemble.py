@@ -74,10 +74,12 @@ def mark_rims(twin, rim):
 
 
 @njit(cache=True, nogil=True)
-def mark_pinching(corners, twin, rim, first, is_kept):
-    """Drop the smaller fans where two walks meet in a point, or one meets an inner point; return how many fans.
+def mark_pinching(corners, twin, rim, ahead, behind, first, is_kept):
+    """Drop fans where two walks meet in a point, or one meets an inner point; return how many.
 
-    A walk that passes a point twice is left: its loops are two pockets that touch. `first` is scratch space, -1.
+    The fan on the boundary asked for stays, else the larger one: `ahead` and `behind` are the points beside each one on
+    that boundary, -1 elsewhere. A walk that passes a point twice is left: its loops are two pockets that touch. `first`
+    is scratch space, -1.
     """
     n_triangles, dropped = np.zeros(len(first), np.int32), 0
     for v in corners:
@@ -85,15 +87,16 @@ def mark_pinching(corners, twin, rim, first, is_kept):
     for h in range(len(corners)):
         if twin[h] >= 0:
             continue
-        v, size = corners[h], fan_size(twin, h)
+        v = corners[h]
+        size, rank = fan_size(corners, twin, h, ahead[v], behind[v])
         n_triangles[v] -= size
         best = first[v]
         if best < 0:
             first[v] = h
         elif rim[best] != rim[h]:
-            is_larger = size > fan_size(twin, best)
-            drop_fan(twin, best if is_larger else h, is_kept)
-            first[v] = h if is_larger else best
+            is_better = rank > fan_size(corners, twin, best, ahead[v], behind[v])[1]
+            drop_fan(twin, best if is_better else h, is_kept)
+            first[v] = h if is_better else best
             dropped += 1
     for v in range(len(first)):
         if first[v] >= 0 and n_triangles[v] > 0:  # what is left is a closed fan
@@ -103,13 +106,15 @@ def mark_pinching(corners, twin, rim, first, is_kept):
 
 
 @njit(cache=True, nogil=True)
-def fan_size(twin, h):
-    """Count the triangles around the origin of boundary half-edge h."""
-    size = 1
+def fan_size(corners, twin, h, ahead, behind):
+    """Count the triangles around the origin of boundary half-edge h, and rank the fan: first those with given ends."""
+    size, one = 1, corners[following(h)]
     while twin[preceding(h)] >= 0:
         h = twin[preceding(h)]
         size += 1
-    return size
+    other = corners[preceding(h)]
+    on_boundary = ahead >= 0 and (one == ahead or one == behind or other == ahead or other == behind)
+    return size, size + (1 << 30 if on_boundary else 0)
 
 
 @njit(cache=True, nogil=True)

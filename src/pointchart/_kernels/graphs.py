@@ -56,3 +56,29 @@ def symmetrizer(order, parent, indptr, indices, values, scale):
             return node
         scale[node] = scale[up] * back / there
     return -1
+
+
+@njit(cache=True, nogil=True)
+def join_parts(points, indptr, indices, spacing, most, part):
+    """Join points by links of up to `most` spacings of the denser end: `part` becomes the smallest point of each part."""
+    for i in range(len(points)):
+        part[i] = i
+    for i in range(len(points)):
+        for e in range(indptr[i], indptr[i + 1]):
+            j = indices[e]
+            if part[i] == part[j]:
+                continue
+            x, y, z = points[j, 0] - points[i, 0], points[j, 1] - points[i, 1], points[j, 2] - points[i, 2]
+            reach = most * min(spacing[i], spacing[j])
+            if x * x + y * y + z * z > reach * reach:
+                continue
+            a, b = i, j
+            while part[a] != a:
+                part[a] = part[part[a]]
+                a = part[a]
+            while part[b] != b:
+                part[b] = part[part[b]]
+                b = part[b]
+            part[max(a, b)] = min(a, b)
+    for i in range(len(points)):
+        part[i] = part[part[i]]

@@ -181,17 +181,18 @@ def put_beside(sides, edge, t):
 
 
 @njit(cache=True, nogil=True)
-def keep_manifold(triangles, order, edge_of, sides, parent, is_odd, outcome):
+def keep_manifold(triangles, order, may_twist, edge_of, sides, parent, is_odd, outcome):
     """Take triangles in the given order wherever no edge gets a third one; `sides` holds the triangles at each edge.
 
-    Those that no orientation fits come last. `outcome` tells of each triangle whether it was JOINED, FULL or TWISTED.
+    Those that no orientation fits come last, and only if they may. `outcome` tells of each triangle whether it was
+    JOINED or TWISTED, or FULL and left out.
     """
     for t in order:
         outcome[t] = join_alike(triangles, edge_of, sides, parent, is_odd, t)
     for t in order:
         if outcome[t] == TWISTED:
             a, b, c = edge_of[t, 0], edge_of[t, 1], edge_of[t, 2]
-            if sides[a, 1] >= 0 or sides[b, 1] >= 0 or sides[c, 1] >= 0:
+            if not may_twist[t] or sides[a, 1] >= 0 or sides[b, 1] >= 0 or sides[c, 1] >= 0:
                 outcome[t] = FULL
             else:
                 for e in (a, b, c):

@@ -6,7 +6,6 @@ import numpy as np
 from numba import njit
 
 from .planes import tangent_frame
-from .stars import circumdiameter
 
 
 @njit(cache=True, nogil=True)
@@ -41,14 +40,3 @@ def survey_sides(points, normals, indptr, indices, steepest, first, last, angle,
         for k in range(n - 1):
             angle[i] = max(angle[i], turns[k + 1] - turns[k])
         offset[i] = math.sqrt(mx * mx + my * my) / mr if n > 0 else 1.0
-
-
-@njit(cache=True, nogil=True)
-def star_widths(indptr, local, is_open, first, last, width):
-    """Write the largest circumradius in the stars of points first..last; it is infinite for open stars."""
-    for i in range(first, last):
-        width[i] = np.inf if is_open[i] else 0.0
-        for e in range(indptr[i], indptr[i + 1]):
-            f = e + 1 if e + 1 < indptr[i + 1] else indptr[i]
-            if f != indptr[i] or not is_open[i]:
-                width[i] = max(width[i], 0.5 * circumdiameter(local[e, 0], local[e, 1], local[f, 0], local[f, 1]))

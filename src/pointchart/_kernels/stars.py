@@ -28,7 +28,7 @@ def turns_left(ax, ay, bx, by, cx, cy):
     """Tell whether the path a, b, c turns left by more than rounding."""
     ux, uy, vx, vy = bx - ax, by - ay, cx - bx, cy - by
     cross = ux * vy - uy * vx
-    return cross > FLAT_TURN_SINE * math.sqrt((ux * ux + uy * uy) * (vx * vx + vy * vy))
+    return cross > 0.0 and cross * cross > FLAT_TURN_SINE**2 * ((ux * ux + uy * uy) * (vx * vx + vy * vy))
 
 
 @njit(cache=True, nogil=True, inline="always")
@@ -92,14 +92,16 @@ def gap_end(x, y, n):
 @njit(cache=True, nogil=True)
 def hull_of_inverses(x, y, n, start, is_open, stack):
     """Write the Delaunay neighbours among n sorted ones to `stack`, anticlockwise from `start`; return how many."""
+    p, q = np.empty(len(x)), np.empty(len(x))
+    for k in range(n):
+        square = x[k] * x[k] + y[k] * y[k]
+        p[k], q[k] = x[k] / square, y[k] / square
     size = 0
     for step in range(n if is_open else n + 1):
-        k = (start + step) % n
-        kk = x[k] * x[k] + y[k] * y[k]
+        k = start + step if start + step < n else start + step - n
         while size > 1:
             a, b = stack[size - 2], stack[size - 1]
-            aa, bb = x[a] * x[a] + y[a] * y[a], x[b] * x[b] + y[b] * y[b]
-            if turns_left(x[a] / aa, y[a] / aa, x[b] / bb, y[b] / bb, x[k] / kk, y[k] / kk):
+            if turns_left(p[a], q[a], p[b], q[b], p[k], q[k]):
                 break
             size -= 1
         stack[size] = k
@@ -118,16 +120,17 @@ def circumdiameter(ax, ay, bx, by):
 
 @njit(cache=True, nogil=True)
 def delaunay_stars(points, normals, indptr, indices, steepest, first, last, star, local, count, is_open, diameter):
-    """Find the Delaunay neighbours of points first..last among their candidates.
+    """Find the Delaunay neighbours of points first..last among their candidates; return how many there are in all.
 
-    The star of point i takes the first `count[i]` places of its candidates' row: names in `star`, planar positions in
-    `local`, anticlockwise. `diameter` is that of its largest circumcircle.
+    Stars follow each other: names in `star`, planar positions in `local`, anticlockwise, `count[i]` of them for point
+    i. `diameter` is that of its largest circumcircle.
     """
     most = 1
     for i in range(first, last):
         most = max(most, indptr[i + 1] - indptr[i])
     name, stack = np.empty(most, np.int64), np.empty(most + 2, np.int64)
     x, y, angle = np.empty(most), np.empty(most), np.empty(most)
+    total = 0
     for i in range(first, last):
         row = indices[indptr[i] : indptr[i + 1]]
         n = project(points, normals[i], i, row, steepest, name, x, y, angle)
@@ -142,7 +145,8 @@ def delaunay_stars(points, normals, indptr, indices, steepest, first, last, star
         count[i], diameter[i] = size, 0.0
         for s in range(size):
             k, m = stack[s], stack[s + 1 if s + 1 < size else 0]
-            e = indptr[i] + s
-            star[e], local[e, 0], local[e, 1] = name[k], x[k], y[k]
+            star[total], local[total, 0], local[total, 1] = name[k], x[k], y[k]
+            total += 1
             if s + 1 < size or not is_open[i]:
                 diameter[i] = max(diameter[i], circumdiameter(x[k], y[k], x[m], y[m]))
+    return total

@@ -7,7 +7,6 @@ from numpy.typing import ArrayLike
 
 from .._check import check_neighbors, check_points
 from .._kernels.rims import add_corner_angles
-from .._kernels.sides import star_widths as widths_kernel
 from .._kernels.sides import survey_sides
 from .._parallel import over_ranges
 from ..errors import InputError
@@ -78,7 +77,7 @@ def boundary_scores(
     Raises
     ------
     InputError
-        If the stars are not ordered, or have no positions in their planes.
+        If the stars are not ordered.
 
     References
     ----------
@@ -98,16 +97,12 @@ def boundary_scores(
     """
     cloud = check_points(points)
     angle, offset = _sides(cloud, around)
-    width = np.empty(len(cloud))
-    over_ranges(
-        lambda first, last: widths_kernel(star.indptr, _planar(star), _is_open(star), first, last, width), len(cloud)
-    )
     even = 2.0 * np.pi / np.maximum(around.sizes, 3)
     free = 1.0 - corner_angles(cloud, agreed) / (2.0 * np.pi)
     return BoundaryScores(
         gap=np.clip((angle - even) / np.maximum(np.pi - even, 1e-300), 0.0, 1.0),
         half_disc=np.minimum(0.5 * np.pi * offset, 1.0),
-        width=np.clip(width / spacing - WIDE_STAR, 0.0, 1.0),
+        width=np.clip(_width(star) / spacing - WIDE_STAR, 0.0, 1.0),
         uncovered=np.clip(2.0 * free, 0.0, 1.0),
     )
 
@@ -209,7 +204,7 @@ def _is_open(star: Neighborhoods) -> Mask:
     return star.is_open
 
 
-def _planar(star: Neighborhoods) -> Floats:
-    if star.local is None:
-        raise InputError("the width of a star needs positions in its plane; use Delaunay stars")
-    return star.local
+def _width(star: Neighborhoods) -> Floats:
+    if star.width is None:
+        raise InputError("the neighbourhoods are no stars, so they have no width; use Delaunay stars")
+    return star.width

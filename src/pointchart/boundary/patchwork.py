@@ -21,7 +21,7 @@ from ..errors import InputError
 from ..neighbors import Neighborhoods
 from ..typing import Floats, Indices, Mask, Triangles
 
-LEAST_VOTES = 2
+LEAST_VOTES, ALL_VOTES = 2, 3
 WIDEST = 2.0  # circumradius of the largest triangle taken, in local spacings
 
 
@@ -64,7 +64,7 @@ class Patchwork:
         return Patchwork(self.triangles[kept], self.edge_of[kept], self.ends, sides, self.part[kept], self.n_points)
 
 
-def patchwork(triangles: ArrayLike, n_points: int, *, order: Indices | None = None) -> Patchwork:
+def patchwork(triangles: ArrayLike, n_points: int) -> Patchwork:
     """Take triangles in turn wherever no edge gets a third one, and orient neighbours alike.
 
     Those that no orientation fits come last; where edges have room for them too, they make a one-sided surface.
@@ -72,9 +72,8 @@ def patchwork(triangles: ArrayLike, n_points: int, *, order: Indices | None = No
     Parameters
     ----------
     triangles : (m, 3) int array
+        The best first.
     n_points : int
-    order : (m,) int array, optional
-        The order in which they are taken; as they are, if not given.
 
     Returns
     -------
@@ -87,7 +86,7 @@ def patchwork(triangles: ArrayLike, n_points: int, *, order: Indices | None = No
     """
     faces = np.array(triangles, dtype=np.int32).reshape(-1, 3)
     edge_of, ends = _named(faces, n_points)
-    return _taken(faces, edge_of, ends, np.arange(len(faces)) if order is None else order, n_points)
+    return _taken(faces, edge_of, ends, np.arange(len(faces)), np.ones(len(faces), np.bool_), n_points)
 
 
 def agreed_patchwork(points: ArrayLike, star: Neighborhoods, spacing: Floats) -> Patchwork:
@@ -123,9 +122,10 @@ def agreed_patchwork(points: ArrayLike, star: Neighborhoods, spacing: Floats) ->
     is_contested = np.empty(m, np.bool_)
     count_at_edges(edge_of, wanted, is_contested)
     contested = np.flatnonzero(is_contested)
-    clear = [np.flatnonzero(~is_contested & (held == count)) for count in (3, 2)]
+    clear = [np.flatnonzero(~is_contested & (held == count)) for count in (ALL_VOTES, LEAST_VOTES)]
     in_turn = contested[np.lexsort((width[contested], -held[contested]))]
-    return _taken(faces, edge_of, ends, np.concatenate([*clear, in_turn]), n)
+    # Two stars may agree on a triangle that folds over another; where three do, the surface itself is one-sided.
+    return _taken(faces, edge_of, ends, np.concatenate([*clear, in_turn]), held == ALL_VOTES, n)
 
 
 def _named(faces: Triangles, n_points: int) -> tuple[Indices, Indices]:
@@ -135,10 +135,12 @@ def _named(faces: Triangles, n_points: int) -> tuple[Indices, Indices]:
     return edge_of, ends[:count]
 
 
-def _taken(faces: Triangles, edge_of: Indices, ends: Indices, order: Indices, n_points: int) -> Patchwork:
+def _taken(
+    faces: Triangles, edge_of: Indices, ends: Indices, order: Indices, may_twist: Mask, n_points: int
+) -> Patchwork:
     m = len(faces)
     sides, parent, is_odd = np.full((len(ends), 2), -1, np.int32), np.empty(m, np.int32), np.zeros(m, np.bool_)
     outcome = np.empty(m, np.int8)
-    keep_manifold(faces, order, edge_of, sides, parent, is_odd, outcome)
+    keep_manifold(faces, order, may_twist, edge_of, sides, parent, is_odd, outcome)
     turn_alike(faces, edge_of, parent, is_odd, outcome)
     return Patchwork(faces, edge_of, ends, sides, parent, n_points).without(outcome == FULL)

@@ -4,7 +4,6 @@ import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
 
 from ..clock import StageClock
 
@@ -56,7 +55,7 @@ def _warn_of_first_run() -> None:
     """Say why the first run on a machine waits: the kernels are compiled once and kept."""
     from .._kernels.stars import delaunay_stars
 
-    cache: Any = getattr(delaunay_stars, "_cache", None)
-    folder = getattr(cache, "cache_path", None)
-    if folder is not None and not any(Path(folder).glob("stars.delaunay_stars*.nbi")):
-        print("pointchart: first run on this machine: compiling its kernels, some 20 seconds, once", file=sys.stderr)
+    stats = getattr(delaunay_stars, "stats", None)  # none where compiling is turned off
+    kept = f"stars.delaunay_stars-{delaunay_stars.__code__.co_firstlineno}.*.nbi"
+    if stats is not None and not any(Path(stats.cache_path).glob(kept)):
+        print("pointchart: first run on this machine: compiling its kernels, once, some 30 seconds", file=sys.stderr)
