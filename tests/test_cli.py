@@ -4,6 +4,7 @@ import re
 import signal
 import subprocess
 import sys
+from concurrent.futures import ThreadPoolExecutor
 from importlib.metadata import version
 from pathlib import Path
 
@@ -16,7 +17,7 @@ from pointchart import certify, read_loop, read_scan, shapes, write_loop, write_
 NO_FACES = np.empty((0, 3), np.int64)
 FAR = shapes.grid(6, 5).points + np.array([0, 0, 50])
 SCORES = ["score_total", "score_gap", "score_half_disc", "score_width", "score_uncovered"]
-COMMAND = [sys.executable, "-c", "from pointchart.cli import main; main()"]
+COMMAND = [sys.executable, "-m", "pointchart"]
 # Sends itself Ctrl-C once the named stage has begun, and its workers have where it has any.
 INTERRUPTED = """
 import os, signal, sys, threading, time
@@ -685,6 +686,10 @@ def test_demo_writes_scan_mesh_and_picture(run, tmp_path):
         (["mesh", "cap.ply", "-o", "m.ply", "--nonsense"], "--nonsense"),
         (["mesh", "cap.ply", "-o", "m.ply", "-k", "0"], "-k"),
         (["mesh", "cap.ply", "-o", "m.ply", "-k", "many"], "-k"),
+        *((["mesh", "cap.ply", "-o", "m.ply", "--threads", n], "'--threads': ") for n in ("0", "-1", "many", "1.5")),
+        (["param", "cap.ply", "-o", "m.csv", "--threads", "0"], "'--threads': "),
+        (["boundary", "cap.ply", "-o", "m.txt", "--threads", "0"], "'--threads': "),
+        (["fit", "cap.ply", "-o", "m.json", "--threads", "0"], "'--threads': "),
         (["mash"], "mash"),
         (["demo", "-o", "cap.ply"], "cap.ply is a file; name a folder"),
     ],
@@ -699,9 +704,10 @@ def test_wrong_usage_exits_with_2_and_writes_nothing(run, cap, tmp_path, words, 
 @pytest.mark.parametrize(
     ("command", "options"),
     [
-        ("mesh", ["--boundary", "--outer", "--holes", "bridge", "open", "--component", "largest"]),
-        ("param", ["--boundary", "--outer"]),
-        ("boundary", ["--picture", "--ply", "--outer", "--component", "largest"]),
+        ("mesh", ["--boundary", "--outer", "--holes", "bridge", "open", "--component", "largest", "--threads"]),
+        ("param", ["--boundary", "--outer", "--threads"]),
+        ("boundary", ["--picture", "--ply", "--outer", "--component", "largest", "--threads"]),
+        ("fit", ["--tolerance", "--threads"]),
         ("check", ["--points", "--holes"]),
         ("demo", ["--out"]),
     ],
@@ -711,6 +717,24 @@ def test_every_command_explains_itself_and_its_options(run, command, options):
     assert code == 0
     assert f"pointchart {command}" in out
     assert [option for option in options if option not in out] == []
+
+
+@pytest.mark.parametrize(
+    "words",
+    [["mesh", "-o", "m.ply"], ["param", "-o", "m.csv"], ["boundary", "-o", "m.txt"], ["fit", "-o", "m.json"]],
+    ids=lambda words: words[0],
+)
+def test_commands_run_on_the_threads_asked_for(run, cap, monkeypatch, words):
+    pools = []
+
+    def counted(n):
+        pools.append(n)
+        return ThreadPoolExecutor(n)
+
+    monkeypatch.setattr("pointchart._parallel.ThreadPoolExecutor", counted)
+    command, *out = words
+    assert run(command, "cap.ply", *out, "--threads", 3)[0] == 0
+    assert set(pools) == {3}
 
 
 # As a process of its own
@@ -734,7 +758,7 @@ def test_a_process_ends_a_bad_run_with_1_and_one_sentence(tmp_path):
     assert [path.name for path in tmp_path.iterdir()] == ["ball.npy"]
 
 
-@pytest.mark.parametrize(("stage", "delay"), [("prepare", 0.05), ("neighbours", 1.0), ("boundary", 0.5), ("map", 0.1)])
+@pytest.mark.parametrize(("stage", "delay"), [("prepare", 0.05), ("neighbours", 1.0), ("boundary", 0.5), ("parameters", 0.1)])
 def test_ctrl_c_ends_a_run_with_130_and_leaves_the_old_file(tmp_path, stage, delay):
     uv = np.random.default_rng(0).random((100_000, 2))
     np.save(tmp_path / "scan.npy", np.c_[uv, 0.1 * np.sin(6 * uv[:, 0]) * np.cos(5 * uv[:, 1])])

@@ -78,6 +78,7 @@ if TYPE_CHECKING:
     )
     from .links import Links as Links, link_stars as link_stars, trusted as trusted
     from .mesh import one_rings as one_rings
+    from .multigrid import multigrid as multigrid
     from .neighbors import Neighborhoods as Neighborhoods, ball as ball, nearest as nearest, spacing as spacing
     from .parameterize import Parameterization as Parameterization, parameterize as parameterize
     from .pipeline import (
@@ -110,7 +111,6 @@ if TYPE_CHECKING:
         cholesky as cholesky,
         conjugate_gradient as conjugate_gradient,
         direct as direct,
-        multigrid as multigrid,
         solve_fixed as solve_fixed,
     )
     from .stars import (
@@ -158,6 +158,7 @@ NAMES = {
     "io": "Scan read_loop read_scan write_curves write_loop write_mesh write_uv",
     "links": "Links link_stars trusted",
     "mesh": "one_rings",
+    "multigrid": "multigrid",
     "neighbors": "Neighborhoods ball nearest spacing",
     "parameterize": "Parameterization parameterize",
     "pipeline": "Reconstruction parameterize_scan reconstruct",
@@ -169,7 +170,7 @@ NAMES = {
     "recover": "Recovered recover_links",
     "relocate": "Relocated mesh_energy relocate_points suspect_points",
     "reopen": "parameterize_open",
-    "solve": "Solution bicgstab cholesky conjugate_gradient direct multigrid solve_fixed",
+    "solve": "Solution bicgstab cholesky conjugate_gradient direct solve_fixed",
     "stars": "delaunay_star nearest_star normals smooth",
     "surface_io": "read_cad read_surface_json write_cad write_surface_json",
     "surfacing": "SurfacedScan fit_scan",

@@ -2,13 +2,16 @@
 
 from collections.abc import Callable, Iterator
 from contextlib import suppress
+from functools import partial
 from itertools import islice
 from typing import TypeAlias, cast
 
 from ._exact import orientation_signs
 from .dirichlet import minimize_dirichlet
-from .errors import InputError, PointchartError
+from .errors import InputError, PointchartError, SolveError
 from .mesh import one_rings
+from .multigrid import multigrid
+from .neighbors import Neighborhoods
 from .parameterize import Parameterization, parameterize, solve_map
 from .quality import l2_stretch, vertex_stretches
 from .refine import Meshed
@@ -17,16 +20,20 @@ from .solve import Solver
 from .typing import UV, Loop, Points, Triangles
 from .weights import WeightScheme, fixed, mean_value, normalize, uniform
 
+QUICK_TOLERANCE = 1e-8
+DIRECT_LIMIT = 10_000  # points up to which factors cost less than a hierarchy of matrices
 RELAXATIONS = 8  # the stretch falls most in the first two; thin limbs go on to open up to the eighth
 
-ChartRule: TypeAlias = Callable[[Points, Loop, UV, Meshed, Solver], Parameterization]
+ChartRule: TypeAlias = Callable[[Points, Loop, UV, Meshed, Solver | None], Parameterization]
 
 
-def uv_on_mesh(points: Points, loop: Loop, boundary_uv: UV, meshed: Meshed, solver: Solver) -> Parameterization:
+def uv_on_mesh(points: Points, loop: Loop, boundary_uv: UV, meshed: Meshed, solver: Solver | None) -> Parameterization:
     """Map the mesh by mean value weights: one-to-one, by Tutte's and Floater's theorem.
 
-    Where a triangle is flat in double precision all the same, the map is opened by other weights (`openings`); failing
-    that, the same is done from uniform weights, Tutte's own. Weights stay positive, so the theorem holds throughout.
+    Without a solver, large meshes are mapped by multigrid to a relative residual of 1e-8 first. Where that leaves a
+    triangle that is not positive, by exact signs, the map is solved to the last digits; where one is flat in double
+    precision all the same, the map is opened by other weights (`openings`); failing that, the same is done from uniform
+    weights, Tutte's own. Weights stay positive, so the theorem holds throughout.
 
     Parameters
     ----------
@@ -36,7 +43,7 @@ def uv_on_mesh(points: Points, loop: Loop, boundary_uv: UV, meshed: Meshed, solv
     boundary_uv : (b, 2) array
         Where it goes on the convex domain, anticlockwise.
     meshed : Meshed
-    solver : callable
+    solver : callable, optional
         See `solve_fixed`.
 
     Returns
@@ -51,6 +58,10 @@ def uv_on_mesh(points: Points, loop: Loop, boundary_uv: UV, meshed: Meshed, solv
     """
     triangles = meshed.swapped.triangles
     rings = one_rings(triangles, len(points))
+    if solver is None and len(points) > DIRECT_LIMIT:
+        quick = _quick_map(points, loop, boundary_uv, rings)
+        if quick is not None and is_positive(quick.uv, triangles):
+            return quick
     mapped: Parameterization | None = None
     failure: PointchartError | None = None
     for scheme in (mean_value, uniform):
@@ -66,7 +77,18 @@ def uv_on_mesh(points: Points, loop: Loop, boundary_uv: UV, meshed: Meshed, solv
     return mapped
 
 
-def uv_low_stretch(points: Points, loop: Loop, boundary_uv: UV, meshed: Meshed, solver: Solver) -> Parameterization:
+def _quick_map(points: Points, loop: Loop, boundary_uv: UV, rings: Neighborhoods) -> Parameterization | None:
+    """Map the mesh to a residual at which most maps are one-to-one: it is small against the whole, not where it is fine.
+
+    None if that is not reached.
+    """
+    with suppress(SolveError):
+        quick = partial(multigrid, tolerance=QUICK_TOLERANCE)
+        return solve_map(points, loop, boundary_uv, rings, weights=mean_value, solver=quick)
+    return None
+
+
+def uv_low_stretch(points: Points, loop: Loop, boundary_uv: UV, meshed: Meshed, solver: Solver | None) -> Parameterization:
     r"""Map the mesh to the same domain with little stretch, one-to-one: ears and fingers get their share of the plane.
 
     From the map of `uv_on_mesh`, weights are divided by the stretch at the neighbour, and the map is solved again:
@@ -106,7 +128,7 @@ def uv_low_stretch(points: Points, loop: Loop, boundary_uv: UV, meshed: Meshed, 
     return best
 
 
-def uv_free_boundary(points: Points, loop: Loop, boundary_uv: UV, meshed: Meshed, solver: Solver) -> Parameterization:
+def uv_free_boundary(points: Points, loop: Loop, boundary_uv: UV, meshed: Meshed, solver: Solver | None) -> Parameterization:
     """Map the mesh with a free boundary and the least distortion of lengths, one-to-one: for texturing.
 
     Lengths, angles and areas are all kept as well as may be (symmetric Dirichlet energy), from the map of
@@ -135,7 +157,7 @@ def uv_free_boundary(points: Points, loop: Loop, boundary_uv: UV, meshed: Meshed
 
 
 def relaxations(
-    points: Points, loop: Loop, boundary_uv: UV, triangles: Triangles, scheme: WeightScheme, solver: Solver
+    points: Points, loop: Loop, boundary_uv: UV, triangles: Triangles, scheme: WeightScheme, solver: Solver | None
 ) -> Iterator[Parameterization]:
     """Map a mesh again and again, each time with weights divided by the last map's stretch at the neighbour."""
     rings = one_rings(triangles, len(points))
@@ -151,7 +173,7 @@ def is_positive(uv: UV, triangles: Triangles) -> bool:
     return bool((orientation_signs(uv, triangles) > 0).all())
 
 
-def uv_of_points(points: Points, loop: Loop, boundary_uv: UV, meshed: Meshed, solver: Solver) -> Parameterization:
+def uv_of_points(points: Points, loop: Loop, boundary_uv: UV, meshed: Meshed, solver: Solver | None) -> Parameterization:
     """Map the points by their neighbourhoods, as the paper does; triangles may fold.
 
     Raises

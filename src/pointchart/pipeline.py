@@ -155,7 +155,6 @@ def reconstruct(
     """
     clock = clock or StageClock()
     survey = survey_scan(points, loop, outer=outer, clock=clock)
-    solver = solver or default_solver(len(survey.cloud.points))
     rule = gaps or (refuse_second_boundary if loop is None and outer is None else bridge_gaps)
     trials = survey.trials[:TRIALS] if outer is None else [survey]
     stand = _first_that_stands(trials, rule, lambda trial: _mesh(trial, connect, weights, swap, chart, solver, clock))
@@ -271,7 +270,7 @@ def _mesh(
     weights: WeightScheme | None,
     swap: SwapRule,
     chart: ChartRule,
-    solver: Solver,
+    solver: Solver | None,
     clock: StageClock,
 ) -> Meshed:
     points, rim, near = survey.cloud.points, survey.loop, survey.vicinity
@@ -279,7 +278,7 @@ def _mesh(
         assembled = mesh_by_agreement(points, rim, survey.surface, near.star, near.around, clock=clock)
         if assembled is not None:
             return assembled
-    circle = chord_length_on_circle(points, rim)
+    circle, solver = chord_length_on_circle(points, rim), solver or default_solver(len(points))
     if connect is None and weights is None:
         with clock("neighbours"):
             links = tie_down(points, link_stars(near.star, also=nearest_star(points, near.around)), rim)

@@ -10,7 +10,7 @@ from scipy.sparse.csgraph import dijkstra
 from .errors import PointchartError
 from .neighbors import Neighborhoods
 from .parameterize import Parameterization, parameterize, solve_map
-from .solve import Solver
+from .solve import Solver, default_solver
 from .typing import UV, Floats, Loop, Points
 from .weights import WeightScheme, fixed, normalize
 
@@ -105,7 +105,7 @@ def openings(
 
     The parameters are those of `parameterize_open`.
     """
-    first = weights(points, neighborhoods)
+    first, solver = weights(points, neighborhoods), solver or default_solver(len(points))
     mapped = parameterize(points, loop, layout, neighborhoods, weights=weights, solver=solver)
     stretch = _log_stretch(points, mapped, neighborhoods)
     yield Opening(mapped, weights, _n_collapsed(stretch))

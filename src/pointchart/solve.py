@@ -10,11 +10,11 @@ import scipy.sparse as sp
 import scipy.sparse.linalg as sla
 from threadpoolctl import threadpool_limits
 
-from ._kernels.graphs import symmetrizer
+from ._kernels.graphs import reduce_rows, symmetrizer
 from .errors import SolveError, points_called
+from .multigrid import TOLERANCE, multigrid
 from .typing import Floats, Indices
 
-TOLERANCE = 1e-12
 MOST_ITERATIONS = 20_000
 DIRECT_LIMIT = 1_000_000
 # Relative: more than any tolerance that is asked for, less than that of no solution at all.
@@ -96,9 +96,7 @@ def solve_fixed(matrix: sp.csr_array, fixed: Indices, values: Floats, *, solver:
     full[fixed] = given
     if len(free) == 0:
         return Solution(full, 0.0, (), "none", 0, 0)
-    rows = matrix[free]
-    right = rows @ full
-    left = sp.csr_array(sp.eye_array(len(free), format="csr") - rows[:, free])
+    left, right = _reduced(matrix, free, full)
     chosen = solver or default_solver(len(free))
     # Numbers that run over are found out by the residual.
     with points_called(free), np.errstate(over="ignore", invalid="ignore"):
@@ -114,6 +112,19 @@ def solve_fixed(matrix: sp.csr_array, fixed: Indices, values: Floats, *, solver:
         )
     full[free] = solution
     return Solution(full, residual, iterations, _name(chosen), len(free), left.nnz)
+
+
+def _reduced(matrix: sp.csr_array, free: Indices, full: Floats) -> tuple[sp.csr_array, Floats]:
+    """Return the system of the free unknowns, with the fixed ones on the right side."""
+    number = np.full(len(full), -1, np.int32)
+    number[free] = np.arange(len(free), dtype=np.int32)
+    indptr, right = np.empty(len(free) + 1, np.int32), np.zeros((len(free), full.shape[1]))
+    indices, data = np.empty(matrix.nnz + len(free), np.int32), np.empty(matrix.nnz + len(free))
+    size = reduce_rows(
+        matrix.indptr, matrix.indices, matrix.data, free, number, full, indptr, indices, data, right
+    )
+    left = sp.csr_array((data[:size], indices[:size], indptr), shape=(len(free), len(free)))
+    return left, right
 
 
 def _name(solver: Solver) -> str:
@@ -179,16 +190,6 @@ def cholesky(left: sp.csr_array, right: Floats) -> Solved:
 def bicgstab(left: sp.csr_array, right: Floats, *, tolerance: float = TOLERANCE, start: Floats | None = None) -> Solved:
     """Solve by plain Bi-CGSTAB, each right side on its own, as the paper does."""
     return _krylov(sla.bicgstab, left, right, tolerance, None, start)
-
-
-def multigrid(
-    left: sp.csr_array, right: Floats, *, tolerance: float = TOLERANCE, start: Floats | None = None
-) -> Solved:
-    """Solve by Bi-CGSTAB preconditioned with Ruge-Stueben algebraic multigrid: linear in time and memory."""
-    import pyamg
-
-    levels = pyamg.ruge_stuben_solver(sp.csr_matrix(left), max_coarse=500)
-    return _krylov(sla.bicgstab, left, right, tolerance, levels.aspreconditioner(), start)
 
 
 def conjugate_gradient(left: sp.csr_array, right: Floats, *, tolerance: float = TOLERANCE) -> Solved:

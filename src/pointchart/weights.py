@@ -9,6 +9,7 @@ from typing import TypeAlias
 
 import numpy as np
 
+from ._kernels.mean_value import mean_value as mean_value_kernel
 from ._kernels.shape_preserving import shape_preserving as shape_preserving_kernel
 from ._parallel import over_ranges
 from .errors import InputError
@@ -125,24 +126,15 @@ def mean_value(points: Points, neighborhoods: Neighborhoods) -> Weights:
     >>> mean_value(plus, delaunay_star(plus, nearest(plus, 4)))[:4].round(12)
     array([0.25, 0.25, 0.25, 0.25])
     """
-    following, is_last = _following(neighborhoods)
-    offset = _offsets(points, neighborhoods)
-    length = _lengths(offset)
-    tangent = half_angle_tangent(offset, offset[following], length, length[following])
-    tangent[is_last] = 0.0
-    both = tangent.copy()
-    both[following] += tangent
-    # A lone neighbour, or a fan without any angle, has no weights of its own.
-    has_none = np.bincount(neighborhoods.rows, both, neighborhoods.n_points) == 0.0
-    both[has_none[neighborhoods.rows]] = 1.0
-    both = np.maximum(both, LEAST_TANGENT)
-    return normalize(both / length, neighborhoods)
-
-
-def half_angle_tangent(a: Floats, b: Floats, length_a: Floats, length_b: Floats) -> Floats:
-    """Return tan(angle / 2) between vectors a and b, (n, d), without cancellation for small angles (Kahan 2006)."""
-    p, q = a * length_b[:, None], b * length_a[:, None]
-    return np.asarray(_lengths(p - q) / np.maximum(_lengths(p + q), 1e-15 * length_a * length_b))
+    if neighborhoods.is_open is None:
+        raise InputError("mean value weights need ordered neighbours; use Delaunay stars or the rings of a mesh")
+    indptr, indices, is_open = neighborhoods.indptr, neighborhoods.indices, neighborhoods.is_open
+    cloud, weights = np.ascontiguousarray(points, dtype=np.float64), np.empty(len(indices))
+    over_ranges(
+        lambda first, last: mean_value_kernel(cloud, indptr, indices, is_open, LEAST_TANGENT, first, last, weights),
+        neighborhoods.n_points,
+    )
+    return weights
 
 
 def shape_preserving(points: Points, neighborhoods: Neighborhoods) -> Weights:
@@ -200,14 +192,3 @@ def _offsets(points: Points, neighborhoods: Neighborhoods) -> Floats:
 
 def _lengths(offset: Floats) -> Floats:
     return np.asarray(np.sqrt(np.einsum("ij,ij->i", offset, offset)))
-
-
-def _following(neighborhoods: Neighborhoods) -> tuple[Indices, Indices]:
-    """Return the entry that follows each one in its star, and the entries after which an open star ends."""
-    if neighborhoods.is_open is None:
-        raise InputError("mean value weights need ordered neighbours; use Delaunay stars or the rings of a mesh")
-    following = np.arange(1, len(neighborhoods.indices) + 1)
-    filled = neighborhoods.sizes > 0
-    last = neighborhoods.indptr[1:] - 1
-    following[last[filled]] = neighborhoods.indptr[:-1][filled]
-    return following, last[filled & neighborhoods.is_open]

@@ -82,3 +82,27 @@ def join_parts(points, indptr, indices, spacing, most, part):
             part[max(a, b)] = min(a, b)
     for i in range(len(points)):
         part[i] = part[part[i]]
+
+
+@njit(cache=True, nogil=True)
+def reduce_rows(indptr, indices, data, free, number, full, left_indptr, left_indices, left_data, right):
+    """Write the system of the free unknowns: the rows of 1 - Lambda, and what the fixed ones in `full` add on the right.
+
+    `free` lists the free unknowns, `number` is the place of each one there, -1 for fixed ones.
+    """
+    size = 0
+    for i in range(len(free)):
+        left_indptr[i] = size
+        left_indices[size], left_data[size] = i, 1.0
+        size += 1
+        row = free[i]
+        for e in range(indptr[row], indptr[row + 1]):
+            j, a = indices[e], data[e]
+            if number[j] >= 0:
+                left_indices[size], left_data[size] = number[j], -a
+                size += 1
+            else:
+                for k in range(full.shape[1]):
+                    right[i, k] += a * full[j, k]
+    left_indptr[len(free)] = size
+    return size

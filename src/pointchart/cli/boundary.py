@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 
 
 def boundary(
+    context: typer.Context,
     scan: given.ScanArgument,
     out: Annotated[
         Path, typer.Option("--out", "-o", metavar="LOOP.txt", help="Loop to write: one 0-based point index a line.")
@@ -43,6 +44,7 @@ def boundary(
     from .choices import outer_place
     from .inputs import read_inputs
 
+    context.with_resource(on_threads(threads))
     place = outer_place(outer)
     taken = [scan, out]
     for path, suffix in ((picture, ".png"), (ply, ".ply")):
@@ -50,7 +52,7 @@ def boundary(
             check_output(path, suffixes=(suffix,), inputs=taken)
             taken.append(path)
     inputs = read_inputs(scan, None, None, out=out, suffixes=(".txt",), component=component)
-    with on_threads(threads), staged(quiet) as clock, points_called(inputs.rows):
+    with staged(quiet) as clock, points_called(inputs.rows):
         survey = survey_scan(inputs.points, outer=place, clock=clock)
     rows, scores = inputs.rows[survey.cloud.rows], survey.scores
     loops = [rows[candidate.loop] for candidate in survey.candidates]

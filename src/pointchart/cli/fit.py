@@ -113,6 +113,7 @@ def fit(
     from .inputs import read_inputs
     from .output import given_options
 
+    context.with_resource(on_threads(threads))
     allowed_of, place = amount("--tolerance", tolerance, positive=True), outer_place(outer, boundary)
     share, fair = amount("--outliers", outliers, below=1.0)(1.0), fairness_weight(fairness)
     named = corner_names(domain, corners)
@@ -127,7 +128,7 @@ def fit(
         scan, boundary, named, out=out, suffixes=(*CAD_SUFFIXES, ".json", *MESH_SUFFIXES), component=component
     )
     allowed = allowed_of(_diagonal(inputs.points))
-    with on_threads(threads), staged(quiet) as clock, points_called(inputs.rows):
+    with staged(quiet) as clock, points_called(inputs.rows):
         surfaced = fit_scan(
             inputs.points,
             inputs.loop,

@@ -61,10 +61,11 @@ def mesh(
     from .inputs import read_inputs
     from .output import carried, given_options
 
+    context.with_resource(on_threads(threads))
     connect, place = connect_rule(neighbors, k, radius), outer_place(outer, boundary)
     named = corner_names(domain, corners)
     inputs = read_inputs(scan, boundary, named, out=out, suffixes=MESH_SUFFIXES, report=report, component=component)
-    with on_threads(threads), staged(quiet) as clock, points_called(inputs.rows):
+    with staged(quiet) as clock, points_called(inputs.rows):
         result = reconstruct(
             inputs.points,
             inputs.loop,

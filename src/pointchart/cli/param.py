@@ -40,10 +40,11 @@ def param(
     from .inputs import read_inputs
     from .output import carried, given_options
 
+    context.with_resource(on_threads(threads))
     connect, place = connect_rule(neighbors, k, radius), outer_place(outer, boundary)
     named = corner_names(domain, corners)
     inputs = read_inputs(scan, boundary, named, out=out, suffixes=UV_SUFFIXES, report=report)
-    with on_threads(threads), staged(quiet) as clock:
+    with staged(quiet) as clock:
         survey, mapped = parameterize_scan(
             inputs.points,
             inputs.loop,
