@@ -1,12 +1,22 @@
 """The multigrid solver: linear in time and memory."""
 
-from collections.abc import Iterable
-from typing import Any
+from typing import NamedTuple
 
 import numpy as np
 import scipy.sparse as sp
 
+from ._kernels.coarsen import (
+    choose_coarse,
+    galerkin_rows,
+    interpolate,
+    mark_strong,
+    most_entries,
+    reverse_strong,
+    split_rows,
+    transpose,
+)
 from ._kernels.multigrid import Levels, bicgstab_pair
+from ._parallel import over_ranges
 from .errors import SolveError
 from .typing import Floats, Indices
 
@@ -68,36 +78,101 @@ def multigrid(
     return solution, tuple(counts)
 
 
-def _levels(left: sp.csr_array) -> Levels:
-    from pyamg import ruge_stuben_solver
+class _Matrix(NamedTuple):
+    """Sorted rows without the diagonal; `middle` is the place of the first column over it."""
 
-    hierarchy = ruge_stuben_solver(sp.csr_matrix(left), max_coarse=COARSEST).levels
-    matrices = [level.A.tocsr() for level in hierarchy]
-    sizes = np.array([matrix.shape[0] for matrix in matrices])
-    rows, indptr, indices, data = _one_after_the_other(matrices)
-    p_rows, p_indptr, p_indices, p_data = _one_after_the_other([level.P.tocsr() for level in hierarchy[:-1]])
+    indptr: Indices
+    middle: Indices
+    indices: Indices
+    data: Floats
+    diagonal: Floats
+
+
+class _Prolongation(NamedTuple):
+    """Compressed rows: the interpolation of a level from the next, or its transpose."""
+
+    indptr: Indices
+    indices: Indices
+    data: Floats
+
+
+def _levels(left: sp.csr_array) -> Levels:
+    matrices, prolongations = [_split(left)], []
+    while len(matrices[-1].diagonal) > COARSEST:
+        prolongation, n_coarse = _interpolation(matrices[-1])
+        if n_coarse in (0, len(matrices[-1].diagonal)):
+            break
+        matrices.append(_product(matrices[-1], prolongation, n_coarse))
+        prolongations.append(prolongation)
+    sizes = np.array([len(matrix.diagonal) for matrix in matrices])
+    begins = np.cumsum([0] + [len(matrix.data) for matrix in matrices])
+    p_begins = np.cumsum([0] + [len(p.data) for p in prolongations])
     return Levels(
         sizes=sizes,
         places=np.concatenate([[0], np.cumsum(sizes)]),
-        rows=rows,
-        indptr=indptr,
-        indices=indices,
-        data=data,
-        diagonal=np.concatenate([matrix.diagonal() for matrix in matrices]),
-        p_rows=p_rows,
-        p_indptr=p_indptr,
-        p_indices=p_indices,
-        p_data=p_data,
-        coarsest=np.linalg.inv(matrices[-1].toarray()),
+        rows=np.concatenate([[0], np.cumsum(sizes + 1)])[:-1],
+        indptr=np.concatenate([matrix.indptr + begin for matrix, begin in zip(matrices, begins, strict=False)]),
+        middle=np.concatenate([matrix.middle + begin for matrix, begin in zip(matrices, begins, strict=False)]),
+        indices=np.concatenate([matrix.indices for matrix in matrices]),
+        data=np.concatenate([matrix.data for matrix in matrices]),
+        diagonal=np.concatenate([matrix.diagonal for matrix in matrices]),
+        p_indptr=np.concatenate([[0], *(p.indptr + begin for p, begin in zip(prolongations, p_begins, strict=False))])[
+            1 if prolongations else 0 :
+        ],
+        p_indices=np.concatenate([np.zeros(0, np.int32), *(p.indices for p in prolongations)]),
+        p_data=np.concatenate([np.zeros(0), *(p.data for p in prolongations)]),
+        coarsest=np.linalg.inv(_dense(matrices[-1])),
     )
 
 
-def _one_after_the_other(matrices: Iterable[Any]) -> tuple[Indices, Indices, Indices, Floats]:
-    """Put the compressed rows of matrices behind each other; return the first place of each, and their arrays."""
-    rows, indptr, indices, data = [0], [np.zeros(0, np.int64)], [np.zeros(0, np.int32)], [np.zeros(0)]
-    for matrix in matrices:
-        indptr.append(matrix.indptr.astype(np.int64) + sum(map(len, data)))
-        indices.append(matrix.indices.astype(np.int32))
-        data.append(matrix.data)
-        rows.append(rows[-1] + len(matrix.indptr))
-    return np.array(rows), np.concatenate(indptr), np.concatenate(indices), np.concatenate(data)
+def _split(left: sp.csr_array) -> _Matrix:
+    n = left.shape[0]
+    matrix = _Matrix(
+        np.empty(n + 1, np.int64), np.empty(n, np.int64), np.empty(left.nnz, np.int32), np.empty(left.nnz), np.empty(n)
+    )
+    size = split_rows(left.indptr, left.indices, left.data, *matrix)
+    return matrix._replace(indices=matrix.indices[:size], data=matrix.data[:size])
+
+
+def _interpolation(matrix: _Matrix) -> tuple[_Prolongation, int]:
+    """Choose the points of the next level, and interpolate from them; return how many there are."""
+    n, nnz = len(matrix.diagonal), len(matrix.data)
+    strong, first, origins = np.empty(nnz, np.bool_), np.empty(n + 1, np.int64), np.empty(nnz, np.int32)
+    mark_strong(matrix.indptr, matrix.data, strong)
+    reverse_strong(matrix.indptr, matrix.indices, strong, first, origins)
+    coarse = np.empty(n, np.int32)
+    count = choose_coarse(matrix.indptr, matrix.indices, strong, first, origins, coarse)
+    indptr, indices, data = np.empty(n + 1, np.int64), np.empty(nnz + n, np.int32), np.empty(nnz + n)
+    size = interpolate(
+        matrix.indptr, matrix.indices, matrix.data, matrix.diagonal, strong, coarse, indptr, indices, data
+    )
+    return _Prolongation(indptr, indices[:size].copy(), data[:size].copy()), int(count)
+
+
+def _product(matrix: _Matrix, prolongation: _Prolongation, n_coarse: int) -> _Matrix:
+    """Return the matrix of the next level, the product of transposed interpolation, matrix and interpolation."""
+    size = len(prolongation.data)
+    restriction = _Prolongation(np.empty(n_coarse + 1, np.int64), np.empty(size, np.int32), np.empty(size))
+    transpose(*prolongation, *restriction)
+    fine = matrix.indptr, matrix.indices, matrix.data, matrix.diagonal
+    sizes, middle, diagonal = np.empty(n_coarse, np.int64), np.empty(n_coarse, np.int64), np.empty(n_coarse)
+    parts: dict[int, tuple[Indices, Floats]] = {}
+
+    def multiply(first: int, last: int) -> None:
+        room = most_entries(fine[0], prolongation.indptr, fine[1], restriction.indptr, restriction.indices, first, last)
+        columns, values, mark = np.empty(room, np.int32), np.empty(room), np.full(n_coarse, -1, np.int32)
+        count = galerkin_rows(
+            fine, prolongation, restriction, first, last, mark, sizes, middle, diagonal, columns, values
+        )
+        parts[first] = columns[:count].copy(), values[:count].copy()
+
+    over_ranges(multiply, n_coarse)
+    indices, data = (np.concatenate([parts[first][k] for first in sorted(parts)]) for k in range(2))
+    indptr = np.concatenate([[0], np.cumsum(sizes)])
+    return _Matrix(indptr, indptr[:-1] + middle, indices, data, diagonal)
+
+
+def _dense(matrix: _Matrix) -> Floats:
+    n = len(matrix.diagonal)
+    dense = sp.csr_array((matrix.data, matrix.indices, matrix.indptr), shape=(n, n)).toarray()
+    return np.asarray(dense + np.diag(matrix.diagonal))

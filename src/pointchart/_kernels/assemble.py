@@ -60,7 +60,7 @@ def along_rim(twin, h):
 
 @njit(cache=True, nogil=True)
 def mark_rims(twin, rim):
-    """Number the boundary walks, in `rim` for each half-edge, -1 inside; return how many there are."""
+    """Give the boundary walks numbers, in `rim` for each half-edge, -1 inside; return how many there are."""
     rim[:] = -1
     count = 0
     for h in range(len(twin)):
@@ -113,7 +113,7 @@ def fan_size(corners, twin, h, ahead, behind):
         h = twin[preceding(h)]
         size += 1
     other = corners[preceding(h)]
-    on_boundary = ahead >= 0 and (one == ahead or one == behind or other == ahead or other == behind)
+    on_boundary = ahead >= 0 and (one in (ahead, behind) or other in (ahead, behind))
     return size, size + (1 << 30 if on_boundary else 0)
 
 

@@ -1,7 +1,7 @@
 """Bi-CGSTAB with an algebraic multigrid cycle for its preconditioner, for two right sides in one pass.
 
-The matrices of all levels follow each other in compressed rows: those of level l begin at row `rows[l]` of `indptr`, and
-its vectors at place `places[l]`.
+The matrices of all levels follow each other, each without its diagonal and in sorted rows (see `coarsen`): those of
+level l begin at row `rows[l]` of `indptr`, and its vectors and diagonal at place `places[l]`.
 """
 
 from typing import Any, NamedTuple
@@ -17,10 +17,10 @@ class Levels(NamedTuple):
     places: Any
     rows: Any
     indptr: Any
+    middle: Any
     indices: Any
     data: Any
     diagonal: Any
-    p_rows: Any
     p_indptr: Any
     p_indices: Any
     p_data: Any
@@ -31,7 +31,8 @@ class Levels(NamedTuple):
 def multiply(levels, x, y):
     """Write the product of the finest matrix and x, (n, 2), to y."""
     for i in range(len(y)):
-        s = t = 0.0
+        d = levels.diagonal[i]
+        s, t = d * x[i, 0], d * x[i, 1]
         for e in range(levels.indptr[i], levels.indptr[i + 1]):
             j, a = levels.indices[e], levels.data[e]
             s, t = s + a * x[j, 0], t + a * x[j, 1]
@@ -40,7 +41,7 @@ def multiply(levels, x, y):
 
 @njit(cache=True, nogil=True)
 def cycle(levels, x, b):
-    """Solve for all right sides roughly by one V-cycle: `x` and `b` hold the vectors of all levels, (places, 2).
+    """Solve for both right sides roughly by one V-cycle: `x` and `b` hold the vectors of all levels, (places, 2).
 
     One Gauss-Seidel sweep forwards on the way down, from zero, and one backwards on the way up.
     """
@@ -60,25 +61,26 @@ def cycle(levels, x, b):
 
 @njit(cache=True, nogil=True)
 def descend(levels, level, x, b):
-    """Sweep forwards from zero, and write what is left of the right side to the next level."""
+    """Sweep forwards from zero, and write what is left of the right side to the next level.
+
+    After such a sweep, what is left of a row is what its columns over the diagonal take.
+    """
     n, place, row = levels.sizes[level], levels.places[level], levels.rows[level]
     x, b, below = x[place : place + n], b[place : place + n], b[levels.places[level + 1] :]
     for i in range(n):
         s, t = b[i, 0], b[i, 1]
-        for e in range(levels.indptr[row + i], levels.indptr[row + i + 1]):
-            j = levels.indices[e]
-            if j < i:
-                s, t = s - levels.data[e] * x[j, 0], t - levels.data[e] * x[j, 1]
-        d = levels.diagonal[place + i]
-        x[i, 0], x[i, 1] = s / d, t / d
-    below[: levels.sizes[level + 1]] = 0.0
-    p_row = levels.p_rows[level]
-    for i in range(n):
-        s, t = b[i, 0], b[i, 1]
-        for e in range(levels.indptr[row + i], levels.indptr[row + i + 1]):
+        for e in range(levels.indptr[row + i], levels.middle[place + i]):
             j, a = levels.indices[e], levels.data[e]
             s, t = s - a * x[j, 0], t - a * x[j, 1]
-        for e in range(levels.p_indptr[p_row + i], levels.p_indptr[p_row + i + 1]):
+        d = 1.0 / levels.diagonal[place + i]
+        x[i, 0], x[i, 1] = s * d, t * d
+    below[: levels.sizes[level + 1]] = 0.0
+    for i in range(n):
+        s = t = 0.0
+        for e in range(levels.middle[place + i], levels.indptr[row + i + 1]):
+            j, a = levels.indices[e], levels.data[e]
+            s, t = s - a * x[j, 0], t - a * x[j, 1]
+        for e in range(levels.p_indptr[row + i], levels.p_indptr[row + i + 1]):
             j, a = levels.p_indices[e], levels.p_data[e]
             below[j, 0] += a * s
             below[j, 1] += a * t
@@ -88,21 +90,21 @@ def descend(levels, level, x, b):
 def ascend(levels, level, x, b):
     """Add what the next level has found, and sweep backwards."""
     n, place, row = levels.sizes[level], levels.places[level], levels.rows[level]
-    x, b, below = x[place : place + n], b[place : place + n], x[levels.places[level + 1] :]
-    p_row = levels.p_rows[level]
+    below = x[levels.places[level + 1] :]
+    x, b = x[place : place + n], b[place : place + n]
     for i in range(n):
-        for e in range(levels.p_indptr[p_row + i], levels.p_indptr[p_row + i + 1]):
+        s, t = x[i, 0], x[i, 1]
+        for e in range(levels.p_indptr[row + i], levels.p_indptr[row + i + 1]):
             j, a = levels.p_indices[e], levels.p_data[e]
-            x[i, 0] += a * below[j, 0]
-            x[i, 1] += a * below[j, 1]
+            s, t = s + a * below[j, 0], t + a * below[j, 1]
+        x[i, 0], x[i, 1] = s, t
     for i in range(n - 1, -1, -1):
         s, t = b[i, 0], b[i, 1]
         for e in range(levels.indptr[row + i], levels.indptr[row + i + 1]):
             j, a = levels.indices[e], levels.data[e]
             s, t = s - a * x[j, 0], t - a * x[j, 1]
-        d = levels.diagonal[place + i]
-        x[i, 0] += s / d
-        x[i, 1] += t / d
+        d = 1.0 / levels.diagonal[place + i]
+        x[i, 0], x[i, 1] = s * d, t * d
 
 
 @njit(cache=True, nogil=True)
@@ -115,13 +117,22 @@ def dots(a, b):
 
 
 @njit(cache=True, nogil=True)
-def quotients(a, b):
-    """Divide two pairs of numbers; 0 over 0 is 0, for a column that is solved."""
+def quotients(a, b, counts):
+    """Divide two pairs of numbers; 0 for columns that are solved, or by 0."""
     c = np.zeros(2)
     for k in range(2):
-        if b[k] != 0.0:
+        if counts[k] < 0 and b[k] != 0.0:
             c[k] = a[k] / b[k]
     return c
+
+
+@njit(cache=True, nogil=True)
+def advance(x, r, step, along, across):
+    """Add `step` times `along` to x, and take as much of `across` from r."""
+    for i in range(len(x)):
+        for k in range(2):
+            x[i, k] += step[k] * along[i, k]
+            r[i, k] -= step[k] * across[i, k]
 
 
 @njit(cache=True, nogil=True)
@@ -148,25 +159,15 @@ def bicgstab_pair(levels, right, x, tolerance, most):
         known[:n] = p
         cycle(levels, guess, known)
         multiply(levels, guess, v)
-        alpha = quotients(rho, dots(shadow, v))
-        for k in range(2):
-            alpha[k] = 0.0 if counts[k] >= 0 else alpha[k]
-        for i in range(n):
-            for k in range(2):
-                x[i, k] += alpha[k] * guess[i, k]
-                r[i, k] -= alpha[k] * v[i, k]
+        alpha = quotients(rho, dots(shadow, v), counts)
+        advance(x, r, alpha, guess, v)
         known[:n] = r
         cycle(levels, guess, known)
         multiply(levels, guess, t)
-        omega = quotients(dots(t, r), dots(t, t))
-        for k in range(2):
-            omega[k] = 0.0 if counts[k] >= 0 else omega[k]
-        for i in range(n):
-            for k in range(2):
-                x[i, k] += omega[k] * guess[i, k]
-                r[i, k] -= omega[k] * t[i, k]
-        rho_before, rho = rho, dots(shadow, r)
-        beta = quotients(rho * alpha, rho_before * omega)
+        omega = quotients(dots(t, r), dots(t, t), counts)
+        advance(x, r, omega, guess, t)
+        before, rho = rho, dots(shadow, r)
+        beta = quotients(rho * alpha, before * omega, counts)
         for i in range(n):
             for k in range(2):
                 p[i, k] = r[i, k] + beta[k] * (p[i, k] - omega[k] * v[i, k])

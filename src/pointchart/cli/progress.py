@@ -11,14 +11,15 @@ from ..clock import StageClock
 OVER_BY = {
     "prepare": 0,
     "neighbours": 3,
-    "boundary": 20,
-    "map": 40,
-    "triangulate": 60,
-    "recover": 66,
-    "swap": 70,
-    "relocate": 72,
-    "parameters": 78,
-    "certify": 93,
+    "boundary": 30,
+    "assemble": 45,
+    "map": 46,
+    "triangulate": 50,
+    "recover": 51,
+    "swap": 52,
+    "relocate": 58,
+    "parameters": 65,
+    "certify": 92,
     "fit": 95,
 }
 
