@@ -8,10 +8,10 @@ The names below are the public interface, in the order of the pipeline; each is 
 import sys
 from importlib import import_module
 from types import ModuleType
-from typing import TYPE_CHECKING
 
 from ._compiled import choose_folder
 
+TYPE_CHECKING = False  # typing takes longer to import than the rest of the start
 if TYPE_CHECKING:
     from .boundary import (
         BoundaryScores as BoundaryScores,

@@ -139,7 +139,7 @@ def check_weights(weights: ArrayLike, n_points: int) -> Floats:
 
 
 def check_triangles(triangles: ArrayLike, n_points: int) -> Triangles:
-    """Return triangles as (m, 3) int64, or say what is wrong with them.
+    """Return triangles as (m, 3) int32 if they are, else as int64, or say what is wrong with them.
 
     Raises
     ------
@@ -151,13 +151,14 @@ def check_triangles(triangles: ArrayLike, n_points: int) -> Triangles:
         return np.empty((0, 3), np.int64)
     if given.ndim != 2 or given.shape[1] != 3 or not np.issubdtype(given.dtype, np.integer):
         raise InputError(f"triangles have shape {given.shape} and type {given.dtype}; (m, 3) whole numbers are needed")
-    faces = np.ascontiguousarray(given, dtype=np.int64)
-    wrong = np.flatnonzero(((faces < 0) | (faces >= n_points)).any(axis=1))
-    if len(wrong):
+    faces = given if given.dtype == np.int32 else np.ascontiguousarray(given, dtype=np.int64)
+    if faces.min() < 0 or faces.max() >= n_points:
+        wrong = np.flatnonzero(((faces < 0) | (faces >= n_points)).any(axis=1))
         raise InputError(
             f"triangles {name_some(wrong)} name points that are not there; indices run from 0 to {n_points - 1}"
         )
-    doubled = np.flatnonzero((faces == np.roll(faces, 1, axis=1)).any(axis=1))
+    a, b, c = faces.T
+    doubled = np.flatnonzero((a == b) | (b == c) | (c == a))
     if len(doubled):
         raise InputError(f"triangles {name_some(doubled)} name a point twice; remove them")
     return faces

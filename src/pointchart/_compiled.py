@@ -4,7 +4,6 @@ import os
 import stat
 import sys
 from collections.abc import Iterator
-from contextlib import suppress
 
 
 def choose_folder() -> None:
@@ -39,6 +38,7 @@ def _can_be_written(folder: str) -> bool:
 def _private_folder() -> str:
     """Return a folder that nobody else can write into, since what lies in it is run."""
     import tempfile
+    from contextlib import suppress
 
     user = os.getuid() if hasattr(os, "getuid") else 0
     folder = os.path.join(tempfile.gettempdir(), f"pointchart-{user}")

@@ -7,6 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.sparse as sp
 
+from ._kernels.half_edges import measure_edges
+from ._parallel import over_ranges
 from .mesh import half_edges
 from .typing import Floats, Indices, Mask, Points, Triangles
 
@@ -75,25 +77,32 @@ def find_bridges(
     20.0
     """
     edges = half_edges(triangles, len(points))
-    lengths = np.linalg.norm(points[edges.targets] - points[edges.origins], axis=1)
-    is_long = lengths > LONG_EDGE * np.maximum(spacing[edges.origins], spacing[edges.targets])
-    bridging = is_long.reshape(-1, 3).any(axis=1)
-    inner = np.flatnonzero(edges.twins >= 0)
-    both = inner[bridging[inner // 3] & bridging[edges.twins[inner] // 3]]
-    graph = sp.coo_array((np.ones(len(both)), (both // 3, edges.twins[both] // 3)), shape=(len(triangles),) * 2)
-    labels = sp.csgraph.connected_components(graph.tocsr(), directed=False)[1]
-    is_rim = np.repeat(bridging, 3)
-    is_rim[both] = False
-    rim_lengths = np.bincount(np.repeat(labels, 3)[is_rim], lengths[is_rim], labels.max() + 1)
-    bridges = []
-    # Triangles that bridge nothing are components of their own, and left out.
+    ratios = np.empty(len(edges.origins))
+    over_ranges(
+        lambda first, last: measure_edges(points, edges.origins, edges.twins, spacing, -1.0, first, last, ratios),
+        len(ratios),
+    )
+    bridging = (ratios > LONG_EDGE).reshape(-1, 3).any(axis=1)
     found = np.flatnonzero(bridging)
     if len(found) == 0:
         return []
+    place = np.full(len(triangles), -1)
+    place[found] = np.arange(len(found))
+    sides = 3 * found[:, None] + np.arange(3)
+    beside = np.where(edges.twins[sides] >= 0, place[edges.twins[sides] // 3], -1)
+    rows, columns = np.repeat(np.arange(len(found)), 3)[beside.ravel() >= 0], beside[beside >= 0]
+    graph = sp.coo_array((np.ones(len(rows)), (rows, columns)), shape=(len(found),) * 2)
+    labels = sp.csgraph.connected_components(graph.tocsr(), directed=False)[1]
+    is_rim = beside < 0
+    ends = triangles[found], np.roll(triangles[found], -1, axis=1)
+    lengths = np.linalg.norm(points[ends[1]] - points[ends[0]], axis=2)
+    rim_lengths = np.bincount(np.repeat(labels, 3)[is_rim.ravel()], lengths[is_rim], labels.max() + 1)
+    bridges = []
     scores = is_boundary()
-    by_label = found[np.argsort(labels[found], kind="stable")]
-    for members in np.split(by_label, np.flatnonzero(np.diff(labels[by_label])) + 1):
-        corners, length = np.unique(triangles[members]), float(rim_lengths[labels[members[0]]])
+    by_label = np.argsort(labels, kind="stable")
+    for group in np.split(by_label, np.flatnonzero(np.diff(labels[by_label])) + 1):
+        members, length = found[group], float(rim_lengths[labels[group[0]]])
+        corners = np.unique(triangles[members])
         in_spacings, share = length / float(np.median(spacing[corners])), float(scores[corners].mean())
         bridges.append(Bridge(members, corners, length, in_spacings, share))
     return sorted(bridges, key=lambda bridge: -bridge.rim_length)
@@ -124,6 +133,9 @@ def open_gaps(triangles: Triangles, patches: Iterable[Indices], n_points: int) -
     >>> open_gaps(ring, [np.array([6])], 6)[1]
     1
     """
+    patches = list(patches)
+    if not patches:
+        return triangles, 0
     edges, removed = half_edges(triangles, n_points), np.zeros(len(triangles), np.bool_)
     on_rim, in_gap, n_holes = np.zeros(n_points, np.bool_), np.zeros(len(triangles), np.bool_), 0
     on_rim[edges.origins[edges.twins < 0]] = True

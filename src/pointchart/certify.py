@@ -3,20 +3,20 @@
 from dataclasses import dataclass
 
 import numpy as np
-import scipy.sparse as sp
 from numpy.typing import ArrayLike
 
 from ._check import check_loop, check_points, check_triangles
 from ._exact import is_simple, orientation_signs
+from ._kernels.half_edges import count_parts, measure_edges
+from ._parallel import over_ranges
 from .boundary import is_same_loop
 from .errors import InputError
 from .mesh import HalfEdges, boundary_loops, fans, half_edges
 from .neighbors import spacing as local_spacing
-from .quality import dihedral_angles, edge_lengths
 from .triangulate import coinciding
-from .typing import UV, Floats, Loop
+from .typing import UV, Floats, Loop, Points
 
-FOLD_ANGLE = np.deg2rad(150.0)
+FOLD_COSINE = np.cos(np.deg2rad(150.0))
 
 
 @dataclass(frozen=True, slots=True)
@@ -160,23 +160,22 @@ def certify(
     loops = boundary_loops(edges) if is_manifold else []
     plane = None if uv is None else _checked_uv(uv, len(cloud))
     asked = None if loop is None else check_loop(loop, len(cloud))
-    ends, lengths = edge_lengths(cloud, edges)
-    local = (local_spacing(cloud) if spacing is None else spacing)[ends].max(axis=1)
+    longest, folds = _measure(cloud, edges, local_spacing(cloud) if spacing is None else spacing)
     return Certificate(
         n_points=len(cloud),
         n_triangles=len(faces),
         unused_points=int((fan_counts == 0).sum()),
         overfull_edges=n_overfull,
         pinched_points=int((fan_counts > 1).sum()),
-        parts=_count_parts(edges, len(cloud)) - int((fan_counts == 0).sum()),
+        parts=int(count_parts(edges.origins, len(cloud))) - int((fan_counts == 0).sum()),
         euler=int((fan_counts > 0).sum()) - n_edges + len(faces),
         boundary_loops=len(loops),
         boundary_as_given=None if asked is None else any(is_same_loop(found, asked) for found in loops),
         coinciding_uv=None if plane is None else len(coinciding(plane)),
         flat_or_folded_uv=None if plane is None else int((orientation_signs(plane, faces) <= 0).sum()),
         simple_uv_boundary=_bound_simply(plane, loops) if plane is not None and len(loops) == 1 + holes else None,
-        longest_edge_over_spacing=float((lengths / local).max()) if len(faces) else 0.0,
-        folds=int((dihedral_angles(cloud, faces, edges) > FOLD_ANGLE).sum()),
+        longest_edge_over_spacing=longest,
+        folds=folds,
         holes=holes,
     )
 
@@ -200,10 +199,15 @@ def _count_edges(edges: HalfEdges) -> tuple[int, int]:
     return len(np.unique(ways[:, :2], axis=0)), len(np.unique(ways[uses > 1, :2], axis=0))
 
 
-def _count_parts(edges: HalfEdges, n_points: int) -> int:
-    """Count the parts of a mesh that no edge joins; an unused point is one."""
-    graph = sp.csr_array((np.ones(len(edges.origins), np.int8), (edges.origins, edges.targets)), shape=(n_points,) * 2)
-    return int(sp.csgraph.connected_components(graph, directed=False)[0])
+def _measure(points: Points, edges: HalfEdges, spacing: Floats) -> tuple[float, int]:
+    """Return the largest ratio of an edge's length to the spacing at its ends, and how many edges are folds."""
+    ratios, folds = np.zeros(len(edges.origins)), []
+
+    def measure(first: int, last: int) -> None:
+        folds.append(measure_edges(points, edges.origins, edges.twins, spacing, FOLD_COSINE, first, last, ratios))
+
+    over_ranges(measure, len(ratios))
+    return float(ratios.max(initial=0.0)), int(sum(folds))
 
 
 def _bound_simply(plane: UV, loops: list[Loop]) -> bool:

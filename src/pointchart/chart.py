@@ -6,6 +6,8 @@ from functools import partial
 from itertools import islice
 from typing import TypeAlias, cast
 
+import scipy.sparse as sp
+
 from ._exact import orientation_signs
 from .dirichlet import minimize_dirichlet
 from .errors import InputError, PointchartError, SolveError
@@ -16,7 +18,7 @@ from .parameterize import Parameterization, parameterize, solve_map
 from .quality import l2_stretch, vertex_stretches
 from .refine import Meshed
 from .reopen import openings
-from .solve import Solver
+from .solve import Solver, solve_fixed
 from .typing import UV, Loop, Points, Triangles
 from .weights import WeightScheme, fixed, mean_value, normalize, uniform
 
@@ -78,17 +80,21 @@ def uv_on_mesh(points: Points, loop: Loop, boundary_uv: UV, meshed: Meshed, solv
 
 
 def _quick_map(points: Points, loop: Loop, boundary_uv: UV, rings: Neighborhoods) -> Parameterization | None:
-    """Map the mesh to a residual at which most maps are one-to-one: it is small against the whole, not where it is fine.
+    """Map the mesh to a residual that is small against the whole, not where it is fine; None if that is not reached.
 
-    None if that is not reached.
+    Most maps are one-to-one then, which has to be checked.
     """
     with suppress(SolveError):
         quick = partial(multigrid, tolerance=QUICK_TOLERANCE)
-        return solve_map(points, loop, boundary_uv, rings, weights=mean_value, solver=quick)
+        graph = sp.csr_array((mean_value(points, rings), rings.indices, rings.indptr), shape=(len(points),) * 2)
+        solution = solve_fixed(graph, loop, boundary_uv, solver=quick)
+        return Parameterization(solution.values, loop, solution)
     return None
 
 
-def uv_low_stretch(points: Points, loop: Loop, boundary_uv: UV, meshed: Meshed, solver: Solver | None) -> Parameterization:
+def uv_low_stretch(
+    points: Points, loop: Loop, boundary_uv: UV, meshed: Meshed, solver: Solver | None
+) -> Parameterization:
     r"""Map the mesh to the same domain with little stretch, one-to-one: ears and fingers get their share of the plane.
 
     From the map of `uv_on_mesh`, weights are divided by the stretch at the neighbour, and the map is solved again:
@@ -128,7 +134,9 @@ def uv_low_stretch(points: Points, loop: Loop, boundary_uv: UV, meshed: Meshed, 
     return best
 
 
-def uv_free_boundary(points: Points, loop: Loop, boundary_uv: UV, meshed: Meshed, solver: Solver | None) -> Parameterization:
+def uv_free_boundary(
+    points: Points, loop: Loop, boundary_uv: UV, meshed: Meshed, solver: Solver | None
+) -> Parameterization:
     """Map the mesh with a free boundary and the least distortion of lengths, one-to-one: for texturing.
 
     Lengths, angles and areas are all kept as well as may be (symmetric Dirichlet energy), from the map of
@@ -173,7 +181,9 @@ def is_positive(uv: UV, triangles: Triangles) -> bool:
     return bool((orientation_signs(uv, triangles) > 0).all())
 
 
-def uv_of_points(points: Points, loop: Loop, boundary_uv: UV, meshed: Meshed, solver: Solver | None) -> Parameterization:
+def uv_of_points(
+    points: Points, loop: Loop, boundary_uv: UV, meshed: Meshed, solver: Solver | None
+) -> Parameterization:
     """Map the points by their neighbourhoods, as the paper does; triangles may fold.
 
     Raises

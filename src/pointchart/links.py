@@ -6,13 +6,12 @@ import numpy as np
 import scipy.sparse as sp
 from scipy.spatial import KDTree
 
-from ._kernels.links import agreement, within_two_edges
+from ._kernels.links import agreement
 from ._parallel import over_ranges
 from .errors import InputError
-from .mesh import one_rings
 from .neighbors import Neighborhoods
 from .parameterize import cut_points
-from .typing import Floats, Indices, Loop, Mask, Points, Triangles, Weights
+from .typing import Floats, Indices, Loop, Mask, Points, Weights
 from .weights import WeightScheme, normalize, reciprocal_distance
 
 FULL_TRUST = 1.0
@@ -137,26 +136,6 @@ def _agree(star: Neighborhoods) -> Mask:
     agrees, is_open = np.zeros(len(star.indices), np.bool_), star.is_open
     over_ranges(lambda first, last: agreement(star.indptr, star.indices, is_open, first, last, agrees), star.n_points)
     return agrees
-
-
-def is_near(links: Neighborhoods, triangles: Triangles) -> Mask:
-    """Tell for each link whether its ends are at most two edges apart on a mesh, (nnz,).
-
-    Examples
-    --------
-    >>> pair = Neighborhoods(np.array([0, 1, 1, 1, 1, 2]), np.array([4, 0]))
-    >>> is_near(pair, np.array([[0, 1, 2], [2, 1, 3], [2, 3, 4]]))
-    array([ True,  True])
-    """
-    rings = one_rings(triangles, links.n_points)
-    near = np.empty(len(links.indices), np.bool_)
-    over_ranges(
-        lambda first, last: within_two_edges(
-            links.indptr, links.indices, rings.indptr, rings.indices, first, last, near
-        ),
-        links.n_points,
-    )
-    return near
 
 
 def trusted(links: Links, scheme: WeightScheme = reciprocal_distance) -> WeightScheme:

@@ -18,8 +18,8 @@ class HalfEdges:
 
     Attributes
     ----------
-    origins, targets : (3 m,) int64
-    twins : (3 m,) int64
+    origins : (3 m,) int32
+    twins : (3 m,) int32
         Opposite half-edges, -1 on the boundary.
     n_overfull : int
         Half-edges that share their direction with another one: more than two triangles at an edge, or triangles of
@@ -27,9 +27,13 @@ class HalfEdges:
     """
 
     origins: Indices
-    targets: Indices
     twins: Indices
     n_overfull: int
+
+    @property
+    def targets(self) -> Indices:
+        """Where the half-edges run to, (3 m,)."""
+        return np.roll(self.origins.reshape(-1, 3), -1, axis=1).ravel()
 
 
 def half_edges(triangles: Triangles, n_points: int) -> HalfEdges:
@@ -39,13 +43,12 @@ def half_edges(triangles: Triangles, n_points: int) -> HalfEdges:
     --------
     >>> import numpy as np
     >>> half_edges(np.array([[0, 1, 2], [2, 1, 3]]), 4).twins
-    array([-1,  3, -1,  1, -1, -1])
+    array([-1,  3, -1,  1, -1, -1], dtype=int32)
     """
-    origins = np.array(triangles, dtype=np.int64).ravel()
-    targets = np.ascontiguousarray(np.roll(origins.reshape(-1, 3), -1, axis=1)).ravel()
+    origins = np.array(triangles, dtype=np.int32).ravel()
     twins = np.empty_like(origins)
     overfull = pair_half_edges(origins, n_points, twins)
-    return HalfEdges(origins, targets, twins, int(overfull))
+    return HalfEdges(origins, twins, int(overfull))
 
 
 def start_draft(points: Points, triangles: Triangles, *, journal: int) -> Draft:
@@ -73,11 +76,11 @@ def start_draft(points: Points, triangles: Triangles, *, journal: int) -> Draft:
     >>> import numpy as np
     >>> draft = start_draft(np.eye(3), np.array([[0, 1, 2]]), journal=0)
     >>> draft.leaving
-    array([0, 1, 2])
+    array([0, 1, 2], dtype=int32)
     """
     edges = half_edges(triangles, len(points))
-    leaving = np.full(len(points), -1, np.int64)
-    leaving[edges.origins] = np.arange(len(edges.origins))
+    leaving = np.full(len(points), -1, np.int32)
+    leaving[edges.origins] = np.arange(len(edges.origins), dtype=np.int32)
     if edges.n_overfull or (leaving < 0).any():
         raise InputError(
             f"the mesh is no manifold on its points: {edges.n_overfull} half-edges share their direction, and "

@@ -1,8 +1,9 @@
 """Spatial order: points renumbered along a Morton curve, so that neighbours in space are neighbours in memory."""
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ._kernels.morton import morton_keys as keys_kernel
+from ._parallel import over_ranges
 from .typing import Floats, Indices
 
 
@@ -23,38 +24,21 @@ def morton_order(points: Floats) -> Indices:
     >>> morton_order(np.array([[9.0, 9.0], [0.0, 0.0], [9.0, 0.0], [0.0, 9.0]]))
     array([1, 2, 3, 0])
     """
-    dimensions = points.shape[1]
-    bits = 63 // dimensions
+    return np.argsort(morton_keys(points), kind="stable")
+
+
+def morton_keys(points: Floats) -> Indices:
+    """Number the cells of points along the Morton curve through their bounding box: 2^21 cells an axis in space.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> morton_keys(np.array([[0.0, 0.0], [9.0, 9.0]]))[0]
+    np.int64(0)
+    """
     low = points.min(axis=0)
     extent = float(np.max(points.max(axis=0) - low)) or 1.0
-    cells = ((points - low) * ((2**bits - 1) / extent)).astype(np.uint64)
-    key = np.zeros(len(points), np.uint64)
-    for axis in range(dimensions):
-        key |= (_spread2 if dimensions == 2 else _spread3)(cells[:, axis]) << np.uint64(axis)
-    return np.argsort(key, kind="stable")
-
-
-def _spread2(x: NDArray[np.uint64]) -> NDArray[np.uint64]:
-    """Put one zero bit between the lowest 31 bits (binary magic numbers)."""
-    for shift, mask in (
-        (16, 0x0000FFFF0000FFFF),
-        (8, 0x00FF00FF00FF00FF),
-        (4, 0x0F0F0F0F0F0F0F0F),
-        (2, 0x3333333333333333),
-        (1, 0x5555555555555555),
-    ):
-        x = (x | (x << np.uint64(shift))) & np.uint64(mask)
-    return x
-
-
-def _spread3(x: NDArray[np.uint64]) -> NDArray[np.uint64]:
-    """Put two zero bits between the lowest 21 bits."""
-    for shift, mask in (
-        (32, 0x001F00000000FFFF),
-        (16, 0x001F0000FF0000FF),
-        (8, 0x100F00F00F00F00F),
-        (4, 0x10C30C30C30C30C3),
-        (2, 0x1249249249249249),
-    ):
-        x = (x | (x << np.uint64(shift))) & np.uint64(mask)
-    return x
+    keys, bits = np.empty(len(points), np.int64), 63 // points.shape[1]
+    places, scale = np.ascontiguousarray(points, dtype=np.float64), (2**bits - 1) / extent
+    over_ranges(lambda first, last: keys_kernel(places, low, scale, bits, first, last, keys), len(points))
+    return keys

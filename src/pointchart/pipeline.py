@@ -260,7 +260,8 @@ def _stand(survey: Survey, meshed: Meshed) -> _Stand:
     bridges = find_bridges(points, meshed.swapped.triangles, spacing, lambda: survey.scores.is_boundary)
     gaps = [bridge for bridge in bridges if bridge.is_gap]
     rims = Rims(points, spacing, survey.loop, gaps, survey.candidates[1:])
-    check_torn(rims, bridges, disputed_links(survey.vicinity.star), is_given=survey.found is None)
+    if bridges:
+        check_torn(rims, bridges, disputed_links(survey.vicinity.star), is_given=survey.found is None)
     return _Stand(survey, meshed, bridges, rims, [], [])
 
 
@@ -299,6 +300,8 @@ def _swapped_again(points: Points, stand: _Stand, swap: SwapRule) -> Meshed:
     stay as they are too.
     """
     first = stand.meshed.swapped
+    if swap in (swap_to_delaunay, keep_edges):
+        return stand.meshed
     is_at_gap = np.zeros(len(points), bool)
     for patch in stand.rims.patches(stand.opened, first.triangles):
         is_at_gap[first.triangles[patch]] = True

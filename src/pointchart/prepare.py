@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ._check import check_points
-from .morton import morton_order
+from .morton import morton_keys
 from .typing import Indices, Points
 
 
@@ -20,7 +20,7 @@ class Cloud:
         Dimensionless.
     rows : (n,) int64
         The row of the scan that each point was read from: the first one, where rows repeat a point.
-    places : (N,) int64
+    places : (N,) int32
         The point that each of the N rows of the scan gave.
     scale : float
         Length 1 of the cloud in the unit of the scan; a power of two.
@@ -61,27 +61,34 @@ def prepare(points: ArrayLike) -> Cloud:
     --------
     >>> cloud = prepare([[8, 8, 0], [0, 0, 0], [8, 8, 0], [8, 0, 0], [0, 8, 0]])
     >>> cloud.rows, cloud.places, cloud.n_repeated
-    (array([1, 3, 4, 0]), array([3, 0, 3, 1, 2]), 1)
+    (array([1, 3, 4, 0]), array([3, 0, 3, 1, 2], dtype=int32), 1)
     """
     scan = check_points(points)
-    first, group = _distinct_rows(scan)
-    distinct = check_points(scan[first])
+    keys = morton_keys(scan)
+    order = np.argsort(keys, kind="stable")
+    first = _first_rows(scan, order, keys[order])
+    is_first = first == np.arange(len(scan), dtype=first.dtype)
+    rows = order[is_first[order]]
+    places = np.empty(len(scan), np.int32)
+    places[rows] = np.arange(len(rows), dtype=np.int32)
+    distinct = check_points(scan[rows])
     middle = (distinct.min(axis=0) + distinct.max(axis=0)) / 2.0
-    centred = distinct - distinct[np.argmin(np.abs(distinct - middle).max(axis=1))]
-    exponent = int(np.ceil(np.log2(np.abs(centred).max())))
-    unit = np.ldexp(centred, -exponent)
-    order = morton_order(unit)
-    place = np.empty_like(order)
-    place[order] = np.arange(len(order))
-    return Cloud(np.ascontiguousarray(unit[order]), first[order], place[group], 2.0**exponent)
+    distinct -= distinct[np.argmin(np.abs(distinct - middle).max(axis=1))]
+    exponent = int(np.ceil(np.log2(max(distinct.max(), -distinct.min()))))
+    return Cloud(np.ldexp(distinct, -exponent), rows, places[first], 2.0**exponent)
 
 
-def _distinct_rows(points: Points) -> tuple[Indices, Indices]:
-    """List the first row of each distinct point, ascending, and for each row the place of its point in that list."""
-    order = np.lexsort(points.T)
-    is_new = np.append(True, (points[order[1:]] != points[order[:-1]]).any(axis=1))
-    # lexsort is stable: the first of each run of equal points is the earliest row.
-    first_of = np.empty_like(order)
-    first_of[order] = order[is_new][np.cumsum(is_new) - 1]
-    first = np.flatnonzero(first_of == np.arange(len(points)))
-    return first, np.searchsorted(first, first_of)
+def _first_rows(points: Points, order: Indices, keys: Indices) -> Indices:
+    """Return for each point the first row with the same coordinates, (n,) int32, given its order and keys along a curve.
+
+    Only points that share their key can be the same.
+    """
+    first = np.arange(len(points), dtype=np.int32)
+    is_same = keys[1:] == keys[:-1]
+    shared = order[np.append(is_same, False) | np.insert(is_same, 0, False)]
+    if len(shared):
+        # lexsort is stable: the first of each run of equal points is the earliest row.
+        run = shared[np.lexsort(points[shared].T)]
+        is_new = np.append(True, (points[run[1:]] != points[run[:-1]]).any(axis=1))
+        first[run] = run[is_new][np.cumsum(is_new) - 1]
+    return first

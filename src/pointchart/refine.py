@@ -1,19 +1,22 @@
 """From points to a mesh: assembled where stars agree, or by a map, its triangulation and swaps; then mended."""
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
+
+import numpy as np
 
 from .assemble import assemble
 from .boundary import Patchwork
 from .clock import StageClock
 from .links import Links, trusted
+from .mesh import start_draft
 from .neighbors import Neighborhoods
 from .parameterize import Parameterization, parameterize
 from .recover import recover_links
-from .relocate import relocate_points, suspect_points
+from .relocate import JOURNAL, relocate_in_place, suspect_points
 from .reopen import parameterize_open
 from .solve import Solver
-from .swaps import Swapped, swap_to_delaunay
+from .swaps import Swapped, swap_in_place
 from .triangulate import separate, triangulate
 from .typing import UV, Loop, Points, Triangles
 from .weights import WeightScheme
@@ -80,9 +83,7 @@ def mesh_by_agreement(
         assembled = assemble(points, surface, loop)
     if assembled is None:
         return None
-    with clock("swap"):
-        swapped = swap_to_delaunay(points, assembled.triangles)
-    settled, n_moves = _relocated(points, swapped, star, around, clock)
+    settled, n_moves = _settled(points, assembled.triangles, star, around, clock)
     return Meshed(settled, n_pockets=assembled.n_pockets, n_relocated=n_moves)
 
 
@@ -110,24 +111,30 @@ def mesh_by_links(
         triangles = triangulate(uv, loop)
     with clock("recover"):
         recovered = recover_links(points, uv, triangles, links)
-    with clock("swap"):
-        swapped = swap_to_delaunay(points, recovered.triangles)
-    settled, n_moves = _relocated(points, swapped, graph, around, clock)
+    settled, n_moves = _settled(points, recovered.triangles, graph, around, clock)
     return Meshed(settled, graph, weights, first_map, n_recovered=recovered.n_recovered, n_relocated=n_moves)
 
 
-def _relocated(
-    points: Points, swapped: Swapped, links: Neighborhoods, around: Neighborhoods, clock: StageClock
+def _settled(
+    points: Points, triangles: Triangles, links: Neighborhoods, around: Neighborhoods, clock: StageClock
 ) -> tuple[Swapped, int]:
-    """Relocate the points whose links the mesh contradicts, and swap again, until none moves; return the moves too."""
-    n_swaps, n_moves = swapped.n_swaps, 0
+    """Swap edges, relocate the points whose links the mesh contradicts, and so on until none moves; return the moves.
+
+    Swaps and suspects are looked for everywhere at first, then where points have moved.
+    """
+    n_moves, among, is_touched = 0, None, None
+    with clock("swap"):
+        draft = start_draft(points, triangles, journal=JOURNAL)
+        n_swaps, is_settled = swap_in_place(points, draft.corners, draft.twin)
     for _ in range(PASSES):
         with clock("relocate"):
-            suspects = suspect_points(links, swapped.triangles)
-            relocated = relocate_points(points, swapped.triangles, around, suspects)
-        if relocated.n_moves == 0:
+            draft.leaving[draft.corners] = np.arange(len(draft.corners), dtype=np.int32)
+            suspects = suspect_points(links, draft, among)
+            moves, is_touched = relocate_in_place(draft, around, suspects)
+        if moves == 0:
             break
+        among = np.flatnonzero(is_touched)
         with clock("swap"):
-            swapped = swap_to_delaunay(points, relocated.triangles)
-        n_swaps, n_moves = n_swaps + swapped.n_swaps, n_moves + relocated.n_moves
-    return replace(swapped, n_swaps=n_swaps), n_moves
+            more, is_settled = swap_in_place(points, draft.corners, draft.twin, is_touched=is_touched)
+        n_swaps, n_moves = n_swaps + more, n_moves + moves
+    return Swapped(draft.corners.reshape(-1, 3), n_swaps, is_settled), n_moves

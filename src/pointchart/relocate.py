@@ -4,13 +4,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ._kernels.drafts import Draft
 from ._kernels.energy import total_energy
+from ._kernels.links import mark_far
 from ._kernels.relocate import JOURNAL
 from ._kernels.relocate import relocate as relocate_kernel
-from .links import is_near
+from ._parallel import over_ranges
 from .mesh import start_draft
 from .neighbors import Neighborhoods
-from .typing import Indices, Points, Triangles
+from .typing import Indices, Mask, Points, Triangles
 
 LEAST_GAIN = 1e-9  # of the mean energy of a triangle: smaller ones are rounding, and might move points for ever
 TRIES = 30  # per point of the mesh, in all
@@ -63,29 +65,58 @@ def relocate_points(points: Points, triangles: Triangles, around: Neighborhoods,
     (1, [2, 2, 2, 2, 4])
     """
     draft = start_draft(points, triangles, journal=JOURNAL)
-    least = LEAST_GAIN * total_energy(draft) / len(triangles)
-    suspects = np.unique(suspects)
-    queue, waiting = np.zeros(len(points), np.int64), np.zeros(len(points), np.bool_)
+    n_moves, _ = relocate_in_place(draft, around, suspects)
+    return Relocated(draft.corners.reshape(-1, 3), n_moves)
+
+
+def relocate_in_place(draft: Draft, around: Neighborhoods, suspects: Indices) -> tuple[int, Mask]:
+    """Relocate points of a draft as `relocate_points` does.
+
+    Returns
+    -------
+    n_moves : int
+    is_touched : (n,) bool array
+        The points of all triangles that changed.
+    """
+    n, n_triangles = len(draft.points), len(draft.corners) // 3
+    is_touched = np.zeros(n, np.bool_)
+    if len(suspects) == 0:
+        return 0, is_touched
+    least = LEAST_GAIN * total_energy(draft) / n_triangles
+    queue, waiting = np.zeros(n, np.int32), np.zeros(n, np.bool_)
     queue[: len(suspects)], waiting[suspects] = suspects, True
-    most = TRIES * len(points)
-    moves = relocate_kernel(draft, queue, waiting, len(suspects), around.indptr, around.indices, least, most)
-    return Relocated(draft.corners.reshape(-1, 3), int(moves))
+    moves = relocate_kernel(
+        draft, queue, waiting, len(suspects), around.indptr, around.indices, least, TRIES * n, is_touched
+    )
+    return int(moves), is_touched
 
 
-def suspect_points(links: Neighborhoods, triangles: Triangles) -> Indices:
-    """Find the points with a link whose other end is more than two edges away on the mesh, (k,).
+def suspect_points(links: Neighborhoods, draft: Draft, among: Indices | None = None) -> Indices:
+    """Find the points with a link whose other end is more than two edges away on a mesh, (k,), ascending.
 
     Either the link reaches across to another sheet or the mesh has the point in a wrong place.
+
+    Parameters
+    ----------
+    links : Neighborhoods
+    draft : Draft
+        The mesh; see `start_draft`.
+    among : (k,) int array, optional
+        Points whose links are looked at; all, if not given.
 
     Examples
     --------
     >>> pair = Neighborhoods(np.array([0, 1, 1, 1, 1, 1, 1]), np.array([5]))
     >>> strip = np.array([[0, 1, 2], [2, 1, 3], [2, 3, 4], [4, 3, 5]])
-    >>> suspect_points(pair, strip)
+    >>> suspect_points(pair, start_draft(np.zeros((6, 3)), strip, journal=0))
     array([0, 5])
     """
-    far = ~is_near(links, triangles)
-    return np.union1d(links.rows[far], links.indices[far])
+    places = np.arange(links.n_points, dtype=np.int32) if among is None else among
+    is_far = np.zeros(links.n_points, np.bool_)
+    over_ranges(
+        lambda first, last: mark_far(draft, links.indptr, links.indices, first, last, places, is_far), len(places)
+    )
+    return np.flatnonzero(is_far)
 
 
 def mesh_energy(points: Points, triangles: Triangles) -> float:

@@ -120,9 +120,7 @@ def _reduced(matrix: sp.csr_array, free: Indices, full: Floats) -> tuple[sp.csr_
     number[free] = np.arange(len(free), dtype=np.int32)
     indptr, right = np.empty(len(free) + 1, np.int32), np.zeros((len(free), full.shape[1]))
     indices, data = np.empty(matrix.nnz + len(free), np.int32), np.empty(matrix.nnz + len(free))
-    size = reduce_rows(
-        matrix.indptr, matrix.indices, matrix.data, free, number, full, indptr, indices, data, right
-    )
+    size = reduce_rows(matrix.indptr, matrix.indices, matrix.data, free, number, full, indptr, indices, data, right)
     left = sp.csr_array((data[:size], indices[:size], indptr), shape=(len(free), len(free)))
     return left, right
 

@@ -8,7 +8,7 @@ from ._kernels.planes import fit_planes
 from ._kernels.stars import delaunay_stars as stars_kernel
 from ._parallel import over_ranges
 from .neighbors import BoxTree, Neighborhoods
-from .typing import Floats, Indices, Mask, Points
+from .typing import Floats, Indices, Points
 
 STEEPEST = 0.8  # sine of the steepest neighbour against the tangent plane; steeper ones lie on another sheet
 FADING = 0.8  # the farthest neighbours have 4% of the weight of the nearest in a plane: they may lie on another sheet

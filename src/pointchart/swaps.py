@@ -69,16 +69,32 @@ def swap_to_delaunay(points: ArrayLike, triangles: Triangles) -> Swapped:
     """
     cloud = check_points(points)
     edges = half_edges(check_triangles(triangles, len(cloud)), len(cloud))
-    n = len(edges.origins)
-    turns = np.zeros(n // 3, np.int64)
+    n_swaps, is_settled = swap_in_place(cloud, edges.origins, edges.twins)
+    return Swapped(edges.origins.reshape(-1, 3), n_swaps, is_settled)
+
+
+def swap_in_place(
+    points: Points, corners: Indices, twins: Indices, *, is_touched: Mask | None = None
+) -> tuple[int, bool]:
+    """Swap edges of half-edges as `swap_to_delaunay` does, beginning with all, or those of triangles at some points.
+
+    Returns
+    -------
+    n_swaps : int
+    is_settled : bool
+    """
+    asked = twins > np.arange(len(twins), dtype=twins.dtype)
+    if is_touched is not None:
+        asked &= np.repeat(is_touched[corners].reshape(-1, 3).any(axis=1), 3)
+    turns, stack = np.zeros(len(corners) // 3, np.int32), np.empty_like(corners)
     n_swaps, is_done = 0, False
     while not is_done:
-        made, barred = delaunay_swaps(
-            cloud, edges.origins, edges.twins, np.empty(n, np.int64), np.empty(n, np.bool_), turns
-        )
+        begin = np.flatnonzero(asked)
+        stack[: len(begin)] = begin
+        made, barred = delaunay_swaps(points, corners, twins, stack, len(begin), asked.copy(), turns)
         n_swaps += int(made)
         is_done = made == 0 or barred == 0
-    return Swapped(edges.origins.reshape(-1, 3), n_swaps, bool(np.all(turns < MOST_SWAPS_OF_A_TRIANGLE)))
+    return n_swaps, bool(np.all(turns < MOST_SWAPS_OF_A_TRIANGLE))
 
 
 def keep_edges(points: Points, triangles: Triangles) -> Swapped:
@@ -116,6 +132,8 @@ def swap_off_sides(mesh: Swapped, loop: Loop, boundary_uv: UV) -> Swapped:
     >>> swap_off_sides(ear, np.arange(5), square).n_swaps
     1
     """
+    if _is_corner(boundary_uv).all():
+        return mesh
     ahead, behind = _sides(mesh.triangles.max() + 1, loop, boundary_uv)
     edges = half_edges(mesh.triangles, len(ahead))
     n_swaps, improves = 0, True
@@ -132,14 +150,18 @@ def swap_off_sides(mesh: Swapped, loop: Loop, boundary_uv: UV) -> Swapped:
 
 def _sides(n_points: int, loop: Loop, boundary_uv: UV) -> tuple[Indices, Indices]:
     """Return the number of the straight side ahead of each boundary point, and of that behind it; -1 elsewhere."""
-    steps = np.roll(boundary_uv, -1, axis=0) - boundary_uv
-    before = np.roll(steps, 1, axis=0)
-    turn = before[:, 0] * steps[:, 1] - before[:, 1] * steps[:, 0]
-    is_corner = turn > STRAIGHT * np.linalg.norm(steps, axis=1) * np.linalg.norm(before, axis=1)
+    is_corner = _is_corner(boundary_uv)
     side = (np.cumsum(is_corner) - 1) % max(is_corner.sum(), 1)
     ahead, behind = np.full(n_points, -1), np.full(n_points, -1)
     ahead[loop], behind[loop] = side, np.roll(side, 1)
     return ahead, behind
+
+
+def _is_corner(boundary_uv: UV) -> Mask:
+    steps = np.roll(boundary_uv, -1, axis=0) - boundary_uv
+    before = np.roll(steps, 1, axis=0)
+    turn = before[:, 0] * steps[:, 1] - before[:, 1] * steps[:, 0]
+    return np.asarray(turn > STRAIGHT * np.linalg.norm(steps, axis=1) * np.linalg.norm(before, axis=1))
 
 
 def _share_a_side(ahead: Indices, behind: Indices, a: Indices, b: Indices) -> Mask:

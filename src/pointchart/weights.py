@@ -14,7 +14,7 @@ from ._kernels.shape_preserving import shape_preserving as shape_preserving_kern
 from ._parallel import over_ranges
 from .errors import InputError
 from .neighbors import Neighborhoods
-from .typing import Floats, Indices, Points, Weights
+from .typing import Floats, Points, Weights
 
 LEAST_TANGENT = 1e-14  # weights stay positive between neighbours in one direction
 

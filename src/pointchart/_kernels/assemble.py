@@ -3,7 +3,7 @@
 import numpy as np
 from numba import njit
 
-from .half_edges import following, preceding
+from .half_edges import cross_at, following, preceding
 from .swaps import are_joined, link
 
 FOLDED = 1e6  # how many times dearer an ear is that folds back on the surface beside it
@@ -227,24 +227,16 @@ def add_ear(corners, twin, h, k, place):
 
 @njit(cache=True, nogil=True)
 def ear_cost(points, corners, twin, h, k, is_last):
-    """Return the squared base of the ear on half-edges h and k, many times more if it folds back; inf if it is an edge."""
+    """Return the squared base of the ear on half-edges h and k, many times more if it folds back; inf if an edge."""
     a, b, c = corners[h], corners[k], corners[following(k)]
     if a == c or (not is_last and (are_joined(corners, twin, h, c) or are_joined(corners, twin, following(k), a))):
         return np.inf
     base = 0.0
     for d in range(3):
         base += (points[c, d] - points[a, d]) ** 2
-    own = area_vector(points, a, c, b)
+    own = cross_at(points, a, c, b)
     for side in (h, k):
-        near = area_vector(points, corners[side], corners[following(side)], corners[preceding(side)])
+        near = cross_at(points, corners[side], corners[following(side)], corners[preceding(side)])
         if own[0] * near[0] + own[1] * near[1] + own[2] * near[2] < 0.0:
             base *= FOLDED
     return base
-
-
-@njit(cache=True, nogil=True, inline="always")
-def area_vector(points, a, b, c):
-    """Return twice the area vector of a triangle."""
-    ux, uy, uz = points[b, 0] - points[a, 0], points[b, 1] - points[a, 1], points[b, 2] - points[a, 2]
-    vx, vy, vz = points[c, 0] - points[a, 0], points[c, 1] - points[a, 1], points[c, 2] - points[a, 2]
-    return uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx

@@ -1,7 +1,7 @@
 """Algebraic coarsening by Ruge and Stueben: coarse points, interpolation, the matrix of the next level.
 
-A matrix is kept without its diagonal: row i has the columns `indices[indptr[i]:indptr[i + 1]]`, ascending, those under i
-before `middle[i]`.
+A matrix is kept without its diagonal: row i has the columns `indices[indptr[i]:indptr[i + 1]]`, ascending, those under
+i before `middle[i]`.
 """
 
 import numpy as np
@@ -136,10 +136,7 @@ def choose_coarse(indptr, indices, strong, first, origins, coarse):
 @njit(cache=True, nogil=True, inline="always")
 def has_strong(indptr, strong, i):
     """Tell whether a row has a strong link."""
-    for e in range(indptr[i], indptr[i + 1]):
-        if strong[e]:
-            return True
-    return False
+    return strong[indptr[i] : indptr[i + 1]].any()
 
 
 @njit(cache=True, nogil=True, inline="always")

@@ -2,6 +2,7 @@
 
 from typing import Any, NamedTuple
 
+import numpy as np
 from numba import njit
 
 from .half_edges import following, preceding
@@ -64,9 +65,9 @@ def swap_noted(draft, n, h):
 @njit(cache=True, nogil=True)
 def first_around(draft, v):
     """Return the half-edge from v that all others around v follow anticlockwise; any, if v is an inner point."""
-    start = k = draft.leaving[v]
+    start = k = np.int64(draft.leaving[v])
     while draft.twin[k] >= 0:
-        k = following(draft.twin[k])
+        k = np.int64(following(draft.twin[k]))
         if k == start:
             break
     return k
@@ -75,13 +76,13 @@ def first_around(draft, v):
 @njit(cache=True, nogil=True)
 def next_around(draft, h):
     """Return the half-edge that leaves the same point anticlockwise of h, or -1 past the boundary."""
-    return draft.twin[preceding(h)]
+    return np.int64(draft.twin[preceding(h)])
 
 
 @njit(cache=True, nogil=True)
 def inner_degree(draft, v):
     """Return how many triangles there are around v, 0 on the boundary."""
-    start = k = draft.leaving[v]
+    start = k = np.int64(draft.leaving[v])
     degree = 0
     while True:
         k = next_around(draft, k)

@@ -60,7 +60,7 @@ def symmetrizer(order, parent, indptr, indices, values, scale):
 
 @njit(cache=True, nogil=True)
 def join_parts(points, indptr, indices, spacing, most, part):
-    """Join points by links of up to `most` spacings of the denser end: `part` becomes the smallest point of each part."""
+    """Join points by links of up to `most` spacings of the denser end; `part` is the smallest point of each part."""
     for i in range(len(points)):
         part[i] = i
     for i in range(len(points)):
@@ -86,7 +86,7 @@ def join_parts(points, indptr, indices, spacing, most, part):
 
 @njit(cache=True, nogil=True)
 def reduce_rows(indptr, indices, data, free, number, full, left_indptr, left_indices, left_data, right):
-    """Write the system of the free unknowns: the rows of 1 - Lambda, and what the fixed ones in `full` add on the right.
+    """Write the system of the free unknowns: the rows of 1 - Lambda, and what the fixed ones in `full` add to them.
 
     `free` lists the free unknowns, `number` is the place of each one there, -1 for fixed ones.
     """

@@ -1,5 +1,7 @@
 """Half-edges of a triangle mesh: half-edge 3 t + k runs from corner k of triangle t to its next corner."""
 
+import math
+
 import numpy as np
 from numba import njit
 
@@ -22,13 +24,13 @@ def pair_half_edges(corners, n_points, twin):
 
     An edge is none when two half-edges run the same way along it: more than two triangles, or opposite orientations.
     """
-    first = np.zeros(n_points + 2, np.int64)
+    first = np.zeros(n_points + 2, np.int32)
     for v in corners:
         first[v + 2] += 1
     for v in range(n_points):
         first[v + 2] += first[v + 1]
     # Half-edges bucketed by origin, their targets beside them, so that each search reads one short run of memory.
-    leaving, target = np.empty(len(corners), np.int64), np.empty(len(corners), np.int64)
+    leaving, target = np.empty_like(corners), np.empty_like(corners)
     for h in range(len(corners)):
         slot = first[corners[h] + 1]
         leaving[slot], target[slot] = h, corners[following(h)]
@@ -99,3 +101,52 @@ def order_rings(corners, twin, first, indptr, indices, is_open):
                 break
             if h == begin:
                 break
+
+
+@njit(cache=True, nogil=True)
+def count_parts(corners, n_points):
+    """Count the parts of a mesh that no edge joins; a point in no triangle is one."""
+    part = np.arange(n_points).astype(np.int32)
+    count = n_points
+    for h in range(len(corners)):
+        a, b = corners[h], corners[following(h)]
+        while part[a] != a:
+            part[a] = part[part[a]]
+            a = part[a]
+        while part[b] != b:
+            part[b] = part[part[b]]
+            b = part[b]
+        if a != b:
+            part[max(a, b)] = min(a, b)
+            count -= 1
+    return count
+
+
+@njit(cache=True, nogil=True)
+def measure_edges(points, corners, twin, spacing, sharpest, first, last, ratios):
+    """Write the length of half-edges first..last over the larger spacing at their ends; return how many edges are folds.
+
+    A fold turns by more than an angle of cosine `sharpest`.
+    """
+    folds = 0
+    for h in range(first, last):
+        a, b = corners[h], corners[following(h)]
+        square = 0.0
+        for k in range(3):
+            square += (points[b, k] - points[a, k]) ** 2
+        ratios[h] = math.sqrt(square) / max(spacing[a], spacing[b])
+        t = twin[h]
+        if t > h:
+            ux, uy, uz = cross_at(points, a, b, corners[preceding(h)])
+            vx, vy, vz = cross_at(points, b, a, corners[preceding(t)])
+            lengths = math.sqrt((ux * ux + uy * uy + uz * uz) * (vx * vx + vy * vy + vz * vz))
+            folds += ux * vx + uy * vy + uz * vz < sharpest * lengths
+    return folds
+
+
+@njit(cache=True, nogil=True, inline="always")
+def cross_at(points, a, b, c):
+    """Return twice the area vector of a triangle."""
+    ux, uy, uz = points[b, 0] - points[a, 0], points[b, 1] - points[a, 1], points[b, 2] - points[a, 2]
+    vx, vy, vz = points[c, 0] - points[a, 0], points[c, 1] - points[a, 1], points[c, 2] - points[a, 2]
+    return uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx

@@ -2,6 +2,9 @@
 
 from numba import njit
 
+from .drafts import first_around, next_around
+from .half_edges import following, preceding
+
 
 @njit(cache=True, nogil=True, inline="always")
 def are_adjacent(indptr, indices, is_open, center, a, b):
@@ -32,20 +35,40 @@ def agreement(indptr, indices, is_open, first, last, agrees):
 
 
 @njit(cache=True, nogil=True)
-def within_two_edges(indptr, indices, ring_indptr, ring_indices, first, last, is_near):
-    """Mark the links of points first..last whose ends are at most two edges apart on a mesh."""
-    for i in range(first, last):
+def mark_far(draft, indptr, indices, first, last, points, is_far):
+    """Mark both ends of the links of points[first..last] whose ends are more than two edges apart on a mesh."""
+    for place in range(first, last):
+        i = points[place]
         for e in range(indptr[i], indptr[i + 1]):
             j = indices[e]
-            is_near[e] = False
-            for r in range(ring_indptr[i], ring_indptr[i + 1]):
-                k = ring_indices[r]
-                if k == j:
-                    is_near[e] = True
-                    break
-                for s in range(ring_indptr[j], ring_indptr[j + 1]):
-                    if ring_indices[s] == k:
-                        is_near[e] = True
-                        break
-                if is_near[e]:
-                    break
+            if not is_around(draft, i, j) and not is_beyond(draft, i, j):
+                is_far[i] = is_far[j] = True
+
+
+@njit(cache=True, nogil=True)
+def is_around(draft, v, other):
+    """Tell whether an edge joins v and `other`."""
+    start = h = first_around(draft, v)
+    while h >= 0:
+        if draft.corners[following(h)] == other or draft.corners[preceding(h)] == other:
+            return True
+        h = next_around(draft, h)
+        if h == start:
+            break
+    return False
+
+
+@njit(cache=True, nogil=True)
+def is_beyond(draft, v, other):
+    """Tell whether an edge joins some neighbour of v and `other`."""
+    start = h = first_around(draft, v)
+    while h >= 0:
+        if is_around(draft, draft.corners[following(h)], other):
+            return True
+        back = draft.corners[preceding(h)]
+        h = next_around(draft, h)
+        if h < 0:
+            return is_around(draft, back, other)
+        if h == start:
+            break
+    return False

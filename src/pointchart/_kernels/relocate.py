@@ -15,11 +15,11 @@ JOURNAL = 2 * (MOST_TRIANGLES + MOST_SWAPS) + 10
 
 
 @njit(cache=True, nogil=True)
-def relocate(draft, queue, waiting, count, indptr, indices, least, most):
+def relocate(draft, queue, waiting, count, indptr, indices, least, most, is_touched):
     """Relocate the points of a ring buffer and all that this touches; return the moves that were made.
 
     `waiting` tells which points are in the queue, the first `count` of it; a move has to lower the energy by more than
-    `least`, and `most` moves are tried.
+    `least`, and `most` moves are tried. `is_touched` marks the points of all triangles that moves have changed.
     """
     stack = np.empty(STACK, np.int64)
     head = moves = tried = 0
@@ -32,6 +32,7 @@ def relocate(draft, queue, waiting, count, indptr, indices, least, most):
         for place in range(n):
             t = draft.journal[place, 0]
             for u in draft.corners[3 * t : 3 * t + 3]:
+                is_touched[u] = True
                 if not waiting[u]:
                     queue[(head + count) % len(queue)] = u
                     count += 1
@@ -48,7 +49,7 @@ def relocate_one(draft, v, near, stack, least):
     n, change = thin_out(draft, v, degree)
     if n < 0:
         return 0
-    h = draft.leaving[v]
+    h = np.int64(draft.leaving[v])
     one, two = next_around(draft, h), next_around(draft, next_around(draft, h))
     n, taken = take_out(draft, n, v, h, one, two)
     place, added = cheapest_place(draft, v, near)
@@ -73,7 +74,7 @@ def thin_out(draft, v, degree):
     """Swap edges of v until three are left; return the length of the journal, -1 if it cannot be, and the change."""
     n, change = 0, 0.0
     while degree > 3:
-        best, gain, h = -1, -np.inf, draft.leaving[v]
+        best, gain, h = np.int64(-1), -np.inf, np.int64(draft.leaving[v])
         for _ in range(degree):
             apex, other = preceding(h), draft.corners[preceding(draft.twin[h])]
             if not are_joined(draft.corners, draft.twin, apex, other):
@@ -148,7 +149,7 @@ def descend(draft, n, stack, size, least):
     while size > 0 and swaps < MOST_SWAPS:
         size -= 1
         h = stack[size]
-        t = draft.twin[h]
+        t = np.int64(draft.twin[h])
         if t < 0:
             continue
         gain = swap_gain(draft, h)

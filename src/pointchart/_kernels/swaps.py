@@ -2,6 +2,7 @@
 
 import math
 
+import numpy as np
 from numba import njit
 
 from .half_edges import following, preceding
@@ -77,25 +78,19 @@ def swap(corners, twin, h):
 
 
 @njit(cache=True, nogil=True)
-def delaunay_swaps(points, corners, twin, stack, queued, swapped):
+def delaunay_swaps(points, corners, twin, stack, size, queued, swapped):
     """Swap edges until all are Delaunay in space; return how many swaps that took, and how many edges were left alone.
 
-    An edge is left alone when its replacement is there already, which a later swap may change. For points in a plane
-    the swaps end by Lawson's theorem; in space no theorem is known, so no triangle takes the lead in more than a
-    fixed number of them.
+    It begins with the first `size` half-edges of the stack, which `queued` marks. An edge is left alone when its
+    replacement is there already, which a later swap may change. For points in a plane the swaps end by Lawson's
+    theorem; in space no theorem is known, so no triangle takes the lead in more than a fixed number of them.
     """
-    size = 0
-    for h in range(len(corners)):
-        queued[h] = twin[h] > h
-        if queued[h]:
-            stack[size] = h
-            size += 1
     total = barred = 0
     while size > 0:
         size -= 1
-        h = stack[size]
+        h = np.int64(stack[size])
         queued[h] = False
-        t = twin[h]
+        t = np.int64(twin[h])
         if t < 0 or swapped[h // 3] >= MOST_SWAPS_OF_A_TRIANGLE:
             continue
         a, b, c, d = corners[h], corners[t], corners[preceding(h)], corners[preceding(t)]
