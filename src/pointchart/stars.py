@@ -138,7 +138,7 @@ def delaunay_star(points: ArrayLike, around: Neighborhoods, *, planes: Neighborh
     return _stars(cloud, normals(cloud, planes or around), around)[0]
 
 
-def nearest_star(points: ArrayLike, around: Neighborhoods) -> Neighborhoods:
+def nearest_star(points: ArrayLike, around: Neighborhoods, *, normal: Floats | None = None) -> Neighborhoods:
     """Find the Delaunay neighbours of each point among its nearest, and among more where its star asks for it.
 
     A star is the true one if no point beyond the candidates can lie in one of its circles: if its largest
@@ -152,6 +152,8 @@ def nearest_star(points: ArrayLike, around: Neighborhoods) -> Neighborhoods:
         Distinct points.
     around : Neighborhoods
         The same number of nearest points of each, nearest first.
+    normal : (n, 3) array, optional
+        Of the planes; fitted, if not given.
 
     Returns
     -------
@@ -168,7 +170,7 @@ def nearest_star(points: ArrayLike, around: Neighborhoods) -> Neighborhoods:
     """
     cloud = check_points(points)
     check_neighbors(around.indices, around.n_points, len(cloud))
-    normal = normals(cloud, around, fading=FADING)
+    normal = normals(cloud, around, fading=FADING) if normal is None else normal
     found, diameter = _stars(cloud, normal, around)
     reach = np.linalg.norm(cloud[around.indices[around.indptr[1:] - 1]] - cloud, axis=1)
     short = np.flatnonzero(~np.asarray(found.is_open) & (diameter > reach))

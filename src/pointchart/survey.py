@@ -73,7 +73,7 @@ class Survey:
         if self.found is not None:
             return self.found.scores
         near = self.vicinity
-        return boundary_scores(near.smoothed, near.around, near.star, self._agreed.triangles, near.spacing)
+        return boundary_scores(near.smoothed, near.around, near.star, self._agreed.triangles, near.spacing, normal=near.normal)
 
     @property
     def surface(self) -> Patchwork:

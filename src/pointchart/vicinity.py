@@ -7,7 +7,7 @@ from numpy.typing import ArrayLike
 from ._check import check_points
 from .neighbors import BoxTree, Neighborhoods, rectangular
 from .neighbors import spacing as local_spacing
-from .stars import break_ties, nearest_star, smooth
+from .stars import FADING, break_ties, nearest_star, normals, smooth
 from .typing import Floats, Points
 
 NEAREST = 20
@@ -25,6 +25,8 @@ class Vicinity:
         Local spacing, in the unit of the points.
     smoothed : (n, 3) float64
         The points with less noise across the surface.
+    normal : (n, 3) float64
+        Of the planes of the smoothed points; of either sign.
     star : Neighborhoods
         Delaunay stars of the smoothed points, in general position: neighbouring stars can agree on grids too. Without
         positions in the planes.
@@ -33,6 +35,7 @@ class Vicinity:
     around: Neighborhoods
     spacing: Floats
     smoothed: Points
+    normal: Floats
     star: Neighborhoods
 
 
@@ -59,5 +62,6 @@ def explore(points: ArrayLike) -> Vicinity:
     around = rectangular(BoxTree(cloud).nearest(NEAREST))
     spacing = local_spacing(cloud, around=around)
     smoothed = smooth(cloud, around)
-    star = replace(nearest_star(break_ties(smoothed, spacing), around), local=None)
-    return Vicinity(around, spacing, smoothed, star)
+    normal = normals(smoothed, around, fading=FADING)
+    star = replace(nearest_star(break_ties(smoothed, spacing), around, normal=normal), local=None)
+    return Vicinity(around, spacing, smoothed, normal, star)

@@ -90,9 +90,11 @@ def gap_end(x, y, n):
 
 
 @njit(cache=True, nogil=True)
-def hull_of_inverses(x, y, n, start, is_open, stack):
-    """Write the Delaunay neighbours among n sorted ones to `stack`, anticlockwise from `start`; return how many."""
-    p, q = np.empty(len(x)), np.empty(len(x))
+def hull_of_inverses(x, y, n, start, is_open, p, q, stack):
+    """Write the Delaunay neighbours among n sorted ones to `stack`, anticlockwise from `start`; return how many.
+
+    `p` and `q` are scratch space, for the inverses.
+    """
     for k in range(n):
         square = x[k] * x[k] + y[k] * y[k]
         p[k], q[k] = x[k] / square, y[k] / square
@@ -129,7 +131,7 @@ def delaunay_stars(points, normals, indptr, indices, steepest, first, last, star
     for i in range(first, last):
         most = max(most, indptr[i + 1] - indptr[i])
     name, stack = np.empty(most, np.int64), np.empty(most + 2, np.int64)
-    x, y, angle = np.empty(most), np.empty(most), np.empty(most)
+    x, y, angle, p, q = np.empty(most), np.empty(most), np.empty(most), np.empty(most), np.empty(most)
     total = 0
     for i in range(first, last):
         row = indices[indptr[i] : indptr[i + 1]]
@@ -141,7 +143,7 @@ def delaunay_stars(points, normals, indptr, indices, steepest, first, last, star
             for k in range(1, n):
                 if x[k] ** 2 + y[k] ** 2 < x[start] ** 2 + y[start] ** 2:
                     start = k
-        size = hull_of_inverses(x, y, n, start, is_open[i], stack) if n > 0 else 0
+        size = hull_of_inverses(x, y, n, start, is_open[i], p, q, stack) if n > 0 else 0
         count[i], diameter[i] = size, 0.0
         for s in range(size):
             k, m = stack[s], stack[s + 1 if s + 1 < size else 0]

@@ -50,7 +50,13 @@ class BoundaryScores:
 
 
 def boundary_scores(
-    points: ArrayLike, around: Neighborhoods, star: Neighborhoods, agreed: Triangles, spacing: Floats
+    points: ArrayLike,
+    around: Neighborhoods,
+    star: Neighborhoods,
+    agreed: Triangles,
+    spacing: Floats,
+    *,
+    normal: Floats | None = None,
 ) -> BoundaryScores:
     """Score every point by what its neighbours, its star and its triangles say of a boundary.
 
@@ -69,6 +75,8 @@ def boundary_scores(
         The triangles on which the stars agree.
     spacing : (n,) array
         Local spacing.
+    normal : (n, 3) array, optional
+        Of the tangent planes; fitted, if not given.
 
     Returns
     -------
@@ -96,7 +104,7 @@ def boundary_scores(
     array([False,  True,  True,  True,  True])
     """
     cloud = check_points(points)
-    angle, offset = _sides(cloud, around)
+    angle, offset = _sides(cloud, around, normal)
     even = 2.0 * np.pi / np.maximum(around.sizes, 3)
     free = 1.0 - corner_angles(cloud, agreed) / (2.0 * np.pi)
     return BoundaryScores(
@@ -185,10 +193,11 @@ def corner_angles(points: Points, triangles: Triangles) -> Floats:
     return total
 
 
-def _sides(cloud: Points, around: Neighborhoods) -> tuple[Floats, Floats]:
+def _sides(cloud: Points, around: Neighborhoods, normal: Floats | None = None) -> tuple[Floats, Floats]:
     """Return the largest free angle, and the distance of the neighbours' centroid in their mean distances."""
     check_neighbors(around.indices, around.n_points, len(cloud))
-    normal, angle, offset = normals(cloud, around, fading=FADING), np.empty(len(cloud)), np.empty(len(cloud))
+    normal = normals(cloud, around, fading=FADING) if normal is None else normal
+    angle, offset = np.empty(len(cloud)), np.empty(len(cloud))
     over_ranges(
         lambda first, last: survey_sides(
             cloud, normal, around.indptr, around.indices, STEEPEST, first, last, angle, offset
