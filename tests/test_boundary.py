@@ -21,11 +21,10 @@ from pointchart import (
     spacing,
     survey_scan,
 )
-from pointchart.boundary import agreed_triangles, anticlockwise, rims
+from pointchart.boundary import agreed_patchwork, anticlockwise, patchwork, rims
 from pointchart.boundary.detect import corner_angles
 from pointchart.boundary.rims import tightened
 from pointchart.mesh import half_edges
-from pointchart.stars import break_ties
 
 SMOOTH = {
     "disc": lambda: shapes.disc(800, seed=1),
@@ -243,7 +242,7 @@ def scores_of(points, k=20):
     """Score points without smoothing them or breaking ties."""
     around, step = nearest(points, k), spacing(points)
     star = delaunay_star(points, nearest(points, 20))
-    return boundary_scores(points, around, star, agreed_triangles(points, star, step), step)
+    return boundary_scores(points, around, star, agreed_patchwork(points, star, step).triangles, step)
 
 
 def depths(sheet, nx, ny):
@@ -257,7 +256,7 @@ def depths(sheet, nx, ny):
 def test_scores_of_a_grid_are_nothing_inside_and_full_on_a_straight_edge_and_at_a_corner():
     sheet = shapes.grid(21, 17)
     vicinity = explore(sheet.points)
-    agreed = agreed_triangles(vicinity.smoothed, vicinity.star, vicinity.spacing)
+    agreed = agreed_patchwork(vicinity.smoothed, vicinity.star, vicinity.spacing).triangles
     scores = boundary_scores(vicinity.smoothed, vicinity.around, vicinity.star, agreed, vicinity.spacing)
     near, far = depths(sheet, 21, 17)
     inside, edge, corner = near >= 2, (near == 0) & (far >= 4), far == 0
@@ -368,47 +367,34 @@ def test_the_angles_round_inner_points_of_a_plane_are_a_full_turn(any_disc):
 def test_scores_need_stars():
     sheet = shapes.grid(6, 5)
     around = nearest(sheet.points, 8)
-    with pytest.raises(InputError, match="the width of a star needs positions in its plane; use Delaunay stars"):
+    with pytest.raises(InputError, match="the neighbourhoods are no stars, so they have no width; use Delaunay stars"):
         boundary_scores(sheet.points, around, around, sheet.triangles, spacing(sheet.points))
 
 
 # Rims of agreeing triangles
 
 
-def test_agreed_triangles_have_at_most_two_at_an_edge(any_disc):
-    points, step = any_disc.points, spacing(any_disc.points)
-    triangles = agreed_triangles(points, delaunay_star(break_ties(points, step), nearest(points)), step)
-    edges = np.sort(triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
-    assert np.unique(edges, axis=0, return_counts=True)[1].max() <= 2
-
-
-def test_agreed_triangles_need_stars():
-    sheet = shapes.grid(5, 5)
-    with pytest.raises(InputError, match="only ordered neighbourhoods hold triangles; use Delaunay stars"):
-        agreed_triangles(sheet.points, nearest(sheet.points, 8), spacing(sheet.points))
-
-
 def test_the_rims_of_a_disc_are_its_boundary(any_disc):
-    (rim,) = rims(any_disc.triangles, len(any_disc.points))
+    (rim,) = rims(patchwork(any_disc.triangles, len(any_disc.points)))
     assert either_way(rim) == either_way(any_disc.boundary)
 
 
 def test_a_surface_with_two_boundaries_has_two_rims():
     ring = shapes.annulus(30, 5)
-    found = rims(ring.triangles, len(ring.points))
+    found = rims(patchwork(ring.triangles, len(ring.points)))
     assert sorted(map(either_way, found)) == sorted(map(either_way, ring.loops))
 
 
 def test_a_closed_surface_has_no_rim():
     ball = shapes.sphere(100)
-    assert rims(ball.triangles, 100) == []
+    assert rims(patchwork(ball.triangles, 100)) == []
 
 
 @given(seeds)
 def test_rims_are_simple_however_many_triangles_are_missing(seed):
     shape = shapes.disc(60)
     rng = np.random.default_rng(seed)
-    for rim in rims(shape.triangles[rng.random(len(shape.triangles)) < rng.random()], 60):
+    for rim in rims(patchwork(shape.triangles[rng.random(len(shape.triangles)) < rng.random()], 60)):
         assert len(rim) >= 3
         assert len(set(rim.tolist())) == len(rim)
 
@@ -422,41 +408,38 @@ def euler_of(triangles):
 
 
 def some_of(shape, rng):
-    """Return some triangles of a shape, and some points."""
+    """Return some triangles of a shape as a surface, and some points."""
     kept = rng.random(len(shape.triangles)) < rng.uniform(0.7, 1)
-    return shape.triangles[kept], rng.random(len(shape.points)) < rng.random()
+    return patchwork(shape.triangles[kept], len(shape.points)), rng.random(len(shape.points)) < rng.random()
 
 
 @given(planar_discs(), seeds)
 @settings(max_examples=30)
 def test_tightening_changes_no_topology_and_loses_no_point(shape, seed):
-    triangles, is_boundary = some_of(shape, np.random.default_rng(seed))
-    tight = tightened(shape.points, triangles, is_boundary)
-    assert np.array_equal(np.unique(tight), np.unique(triangles))
-    assert euler_of(tight) == euler_of(triangles)
-    n = len(shape.points)
-    before, after = (rims(faces, n) for faces in (triangles, tight))
-    assert len(after) == len(before)
+    surface, is_boundary = some_of(shape, np.random.default_rng(seed))
+    tight = tightened(shape.points, surface, is_boundary)
+    assert np.array_equal(np.unique(tight.triangles), np.unique(surface.triangles))
+    assert euler_of(tight.triangles) == euler_of(surface.triangles)
+    assert len(rims(tight)) == len(rims(surface))
 
 
 @given(planar_discs(), seeds)
 @settings(max_examples=30)
 def test_tightening_brings_boundary_points_onto_the_rims_and_takes_none_off(shape, seed):
-    triangles, is_boundary = some_of(shape, np.random.default_rng(seed))
-    tight = tightened(shape.points, triangles, is_boundary)
-    n = len(shape.points)
-    before, after = (set(np.concatenate([*rims(faces, n), []]).tolist()) for faces in (triangles, tight))
+    surface, is_boundary = some_of(shape, np.random.default_rng(seed))
+    tight = tightened(shape.points, surface, is_boundary)
+    before, after = (set(np.concatenate([*rims(patches), []]).tolist()) for patches in (surface, tight))
     assert before <= after
-    assert len(after - before) == len(triangles) - len(tight)
+    assert len(after - before) == len(surface.triangles) - len(tight.triangles)
     assert is_boundary[np.array(sorted(after - before), dtype=int)].all()
-    assert set(map(tuple, tight.tolist())) <= set(map(tuple, triangles.tolist()))
+    assert set(map(tuple, tight.triangles.tolist())) <= set(map(tuple, surface.triangles.tolist()))
     again = tightened(shape.points, tight, is_boundary)
-    assert np.array_equal(again, tight)
+    assert np.array_equal(again.triangles, tight.triangles)
 
 
 def test_without_boundary_points_nothing_is_tightened(any_disc):
-    none = np.zeros(len(any_disc.points), bool)
-    assert np.array_equal(tightened(any_disc.points, any_disc.triangles, none), any_disc.triangles)
+    surface = patchwork(any_disc.triangles, len(any_disc.points))
+    assert tightened(any_disc.points, surface, np.zeros(len(any_disc.points), bool)) is surface
 
 
 @pytest.mark.parametrize(("angle", "n_left"), [(89, 5), (91, 4)])
@@ -464,8 +447,8 @@ def test_a_rim_is_drawn_to_a_point_that_sees_it_under_more_than_a_right_angle(an
     half = np.deg2rad(angle / 2)
     turn = np.r_[0, np.linspace(half, 2 * np.pi - half, 5)]
     points = np.c_[np.cos(turn), np.sin(turn), 0 * turn] * (np.arange(6) > 0)[:, None]
-    fan = np.array([[0, 1, 2], [0, 2, 3], [0, 3, 4], [0, 4, 5], [0, 5, 1]])
-    assert len(tightened(points, fan, np.ones(6, bool))) == n_left
+    fan = patchwork([[0, 1, 2], [0, 2, 3], [0, 3, 4], [0, 4, 5], [0, 5, 1]], 6)
+    assert len(tightened(points, fan, np.ones(6, bool)).triangles) == n_left
 
 
 def test_tightening_finds_the_teeth_of_a_ragged_edge():
@@ -473,7 +456,7 @@ def test_tightening_finds_the_teeth_of_a_ragged_edge():
     is_tooth = (teeth.uv[:, 1] == 0) & (teeth.uv[:, 0] % 2 == 1)
     points = teeth.points - 0.6 * np.eye(3)[1] * is_tooth[:, None]
     hull = np.array([[i, i + 2, i + 1] for i in range(1, 10, 2)])
-    (loop,) = rims(tightened(points, np.r_[teeth.triangles, hull], np.ones(72, bool)), 72)
+    (loop,) = rims(tightened(points, patchwork(np.r_[teeth.triangles, hull], 72), np.ones(72, bool)))
     assert set(range(12)) <= set(loop.tolist())
 
 

@@ -4,9 +4,8 @@ from hypothesis import given, settings
 from strategies import clouds
 
 from pointchart.errors import InputError
-from pointchart.links import LONE_TRUST, disputed_links, is_near, link_stars, tie_down
-from pointchart.mesh import one_rings
-from pointchart.neighbors import Neighborhoods, nearest
+from pointchart.links import LONE_TRUST, disputed_links, link_stars, tie_down
+from pointchart.neighbors import nearest
 from pointchart.parameterize import cut_points
 from pointchart.pipeline import reconstruct
 from pointchart.shapes import add_noise, disc, fold, grid, hemisphere, relief
@@ -82,20 +81,6 @@ def test_links_across_a_fold_are_trusted_less_than_those_along_it():
 def test_links_need_ordered_neighbours():
     with pytest.raises(InputError, match="only ordered neighbourhoods can agree on triangles"):
         link_stars(nearest(disc(40).points, 6))
-
-
-def test_near_links_are_those_within_two_edges_of_the_mesh():
-    shape = disc(120, seed=2)
-    n = len(shape.points)
-    rings = one_rings(shape.triangles, n)
-    edge = np.zeros((n, n), bool)
-    edge[rings.rows, rings.indices] = True
-    links = links_of(shape.points, 30)
-    everyone = Neighborhoods(np.arange(0, n * n + 1, n), np.tile(np.arange(n), n))
-    every_link = type(links)(everyone, np.ones(n * n))
-    near = is_near(every_link, shape.triangles).reshape(n, n)
-    expected = edge | ((edge.astype(int) @ edge) > 0)
-    assert np.array_equal(near | np.eye(n, dtype=bool), expected | np.eye(n, dtype=bool))
 
 
 # Disputes

@@ -9,12 +9,16 @@ from pointchart import shapes
 from pointchart.certify import certify
 from pointchart.errors import InputError
 from pointchart.links import link_stars
-from pointchart.mesh import boundary_loops, half_edges
+from pointchart.mesh import boundary_loops, half_edges, one_rings, start_draft
 from pointchart.neighbors import Neighborhoods, nearest
 from pointchart.quality import dihedral_angles
 from pointchart.relocate import mesh_energy, relocate_points, suspect_points
 from pointchart.swaps import swap_to_delaunay
 from pointchart.vicinity import explore
+
+
+def suspects_in(points, triangles, links, among=None):
+    return suspect_points(links, start_draft(points, triangles, journal=0), among)
 
 
 def put_astray(triangles, n_points, rng, n_moves):
@@ -140,7 +144,7 @@ def test_points_on_the_other_of_two_close_sheets_go_back_where_edge_swaps_leave_
         mesh = split(np.concatenate([rest, fan]), int(np.argmin(np.where(is_across, distance, np.inf))), v)
     swapped = swap_to_delaunay(points, mesh).triangles
     assert longest_in_plane(shape, swapped) > 8
-    suspects = suspect_points(link_stars(explore(points).star), swapped)
+    suspects = suspects_in(points, swapped, link_stars(explore(points).star).neighborhoods)
     moved = relocate_points(points, swapped, nearest(points, 20), suspects)
     assert moved.n_moves >= 10
     assert longest_in_plane(shape, moved.triangles) < 1.5  # edges and diagonals of the grid's squares
@@ -153,11 +157,36 @@ def longest_in_plane(shape, triangles):
 
 def test_nothing_is_suspect_on_a_clean_scan_and_points_astray_are():
     shape = shapes.hemisphere(600)
-    links = link_stars(explore(shape.points).star)
-    assert len(suspect_points(links, shape.triangles)) == 0
+    star = explore(shape.points).star
     astray = put_astray(shape.triangles, len(shape.points), np.random.default_rng(3), 1)
     (v,) = np.flatnonzero(np.bincount(astray.ravel()) == 3)[:1]
-    assert v in suspect_points(links, astray)
+    for links in (star, link_stars(star).neighborhoods):
+        assert len(suspects_in(shape.points, shape.triangles, links)) == 0
+        assert v in suspects_in(shape.points, astray, links)
+
+
+def two_edges_apart(shape):
+    """Tell which pairs of points are at most two edges apart, (n, n), by powers of the adjacency matrix."""
+    rings = one_rings(shape.triangles, len(shape.points))
+    edge = np.eye(len(shape.points), dtype=int)
+    edge[rings.rows, rings.indices] = 1
+    return edge @ edge > 0
+
+
+@settings(max_examples=15)
+@given(planar_discs(smallest=20, largest=80), seeds)
+def test_suspects_are_the_ends_of_links_of_more_than_two_edges(shape, seed):
+    n, rng = len(shape.points), np.random.default_rng(seed)
+    is_near = two_edges_apart(shape)
+    sizes = rng.integers(0, 3, n)
+    links = Neighborhoods(np.r_[0, np.cumsum(sizes)], rng.integers(0, n, sizes.sum()))
+    is_far = ~is_near[links.rows, links.indices]
+    expected = np.unique(np.r_[links.rows[is_far], links.indices[is_far]])
+    assert suspects_in(shape.points, shape.triangles, links).tolist() == expected.tolist()
+    among = rng.permutation(n)[: n // 2]
+    is_far &= np.isin(links.rows, among)
+    expected = np.unique(np.r_[links.rows[is_far], links.indices[is_far]])
+    assert suspects_in(shape.points, shape.triangles, links, among).tolist() == expected.tolist()
 
 
 def test_without_near_points_nothing_moves():

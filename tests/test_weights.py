@@ -4,6 +4,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from strategies import clouds, planar_discs, rotations, seeds
 
+from pointchart._kernels.mean_value import half_angle_tangent
 from pointchart.boundary.layout import on_circle
 from pointchart.errors import InputError
 from pointchart.links import link_stars, trusted
@@ -12,7 +13,7 @@ from pointchart.neighbors import Neighborhoods, ball, nearest
 from pointchart.parameterize import parameterize
 from pointchart.shapes import disc
 from pointchart.stars import delaunay_star
-from pointchart.weights import half_angle_tangent, mean_value, normalize, reciprocal_distance, shape_preserving, uniform
+from pointchart.weights import mean_value, normalize, reciprocal_distance, shape_preserving, uniform
 
 ORDERED = [mean_value, shape_preserving]
 SCHEMES = [uniform, reciprocal_distance, *ORDERED]
@@ -154,9 +155,8 @@ def test_weights_around_a_point_with_three_neighbours_are_its_barycentric_coordi
 
 @given(st.floats(1e-9, np.pi - 1e-3), st.floats(0.1, 10), st.floats(0.1, 10))
 def test_half_angle_tangents_are_exact_for_small_and_large_angles(angle, a, b):
-    along, turned = a * np.array([[1.0, 0, 0]]), b * np.array([[np.cos(angle), np.sin(angle), 0]])
-    found = half_angle_tangent(along, turned, np.array([a]), np.array([b]))
-    assert np.isclose(found[0], np.tan(angle / 2), rtol=1e-6, atol=3e-8)
+    points = np.array([[0.0, 0, 0], [a, 0, 0], [b * np.cos(angle), b * np.sin(angle), 0]])
+    assert np.isclose(half_angle_tangent(points, 0, 1, 2), np.tan(angle / 2), rtol=1e-6, atol=1e-15)
 
 
 def test_mean_value_weights_of_a_mesh_need_no_planar_positions(any_disc):

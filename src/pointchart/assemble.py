@@ -61,7 +61,7 @@ def assemble(points: Points, surface: Patchwork, loop: Loop) -> Assembled | None
            [4, 3, 0]])
     """
     n = len(points)
-    cleared = _cleared(surface, loop)
+    cleared = _cleared(surface.extended(loop), loop)
     if cleared is None:
         return None
     corners, twins, loops = cleared
@@ -94,7 +94,7 @@ def _cleared(surface: Patchwork, loop: Loop) -> tuple[Indices, Indices, list[Ind
     n = surface.n_points
     ahead, behind = np.full(n, -1, np.int32), np.full(n, -1, np.int32)
     ahead[loop], behind[loop] = np.roll(loop, -1), np.roll(loop, 1)
-    is_kept = surface.part == np.argmax(np.bincount(surface.part[surface.part >= 0], minlength=1))
+    is_kept = surface.largest
     for _ in range(ROUNDS):
         number = np.where(is_kept, np.cumsum(is_kept, dtype=np.int32) - 1, -1)
         m = int(np.count_nonzero(is_kept))
@@ -105,7 +105,8 @@ def _cleared(surface: Patchwork, loop: Loop) -> tuple[Indices, Indices, list[Ind
         if mark_pinching(corners, twins, rim, ahead, behind, first, still) == 0:
             n_rim = int((twins < 0).sum())
             loops, starts, path = np.empty(n_rim, np.int64), np.empty(n_rim + 1, np.int64), np.empty(n_rim, np.int64)
-            count, n_tangled = cut_walks(corners, twins, np.full(n, -1, np.int32), path, loops, starts, still)
+            place = np.full(n, -1, np.int32)
+            count, n_tangled = cut_walks(corners, twins, ahead, behind, place, path, loops, starts, still)
             if n_tangled == 0:
                 return corners, twins, np.split(loops, starts[1:count])
         keep_largest(twins, still)

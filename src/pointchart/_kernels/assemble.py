@@ -6,6 +6,7 @@ from numba import njit
 from .half_edges import cross_at, following, preceding
 from .swaps import are_joined, link
 
+ON_BOUNDARY = 1 << 30  # rank of a fan on the boundary asked for, over that of any size
 FOLDED = 1e6  # how many times dearer an ear is that folds back on the surface beside it
 
 
@@ -98,10 +99,22 @@ def mark_pinching(corners, twin, rim, ahead, behind, first, is_kept):
             drop_fan(twin, best if is_better else h, is_kept)
             first[v] = h if is_better else best
             dropped += 1
-    for v in range(len(first)):
-        if first[v] >= 0 and n_triangles[v] > 0:  # what is left is a closed fan
+    for h in range(len(corners)):
+        v = corners[h]
+        if first[v] < 0 or n_triangles[v] == 0:
+            continue
+        # What is left besides the fans on the rim is a closed one, at an inner point.
+        if fan_size(corners, twin, first[v], ahead[v], behind[v])[1] < ON_BOUNDARY:
             drop_fan(twin, first[v], is_kept)
-            dropped += 1
+        else:
+            k = twin[h]
+            while k >= 0 and following(k) != h:
+                k = twin[following(k)]
+            if k < 0:  # this half-edge is of a fan on the rim
+                continue
+            drop_closed_fan(twin, h, is_kept)
+        n_triangles[v] = 0
+        dropped += 1
     return dropped
 
 
@@ -114,7 +127,17 @@ def fan_size(corners, twin, h, ahead, behind):
         size += 1
     other = corners[preceding(h)]
     on_boundary = ahead >= 0 and (one in (ahead, behind) or other in (ahead, behind))
-    return size, size + (1 << 30 if on_boundary else 0)
+    return size, size + (ON_BOUNDARY if on_boundary else 0)
+
+
+@njit(cache=True, nogil=True)
+def drop_closed_fan(twin, h, is_kept):
+    """Drop the triangles all around the origin of half-edge h."""
+    is_kept[h // 3] = False
+    k = twin[preceding(h)]
+    while k != h:
+        is_kept[k // 3] = False
+        k = twin[preceding(k)]
 
 
 @njit(cache=True, nogil=True)
@@ -127,14 +150,15 @@ def drop_fan(twin, h, is_kept):
 
 
 @njit(cache=True, nogil=True)
-def cut_walks(corners, twin, place, path, loops, starts, is_kept):
+def cut_walks(corners, twin, ahead, behind, place, path, loops, starts, is_kept):
     """Cut the boundary walks into loops that pass no point twice; return how many, and how many fans are in the way.
 
     The half-edges of each loop follow each other in `loops`, beginning at `starts`. A walk that passes two points in
-    turn, twice, is no rim of a surface in the plane: there a fan is dropped. `place`, (n_points,) of -1, and `path` are
-    scratch space.
+    turn, twice, is no rim of a surface in the plane: there the lower fan is dropped (see `mark_pinching`). `place`,
+    (n_points,) of -1, and `path` are scratch space.
     """
     seen, closed = np.zeros(len(twin), np.bool_), np.full(len(place), -1, np.int64)
+    walk = np.full(len(place), -1, np.int64)
     count = size = tangled = 0
     for seed in range(len(twin)):
         if twin[seed] >= 0 or seen[seed]:
@@ -143,14 +167,16 @@ def cut_walks(corners, twin, place, path, loops, starts, is_kept):
         while not seen[h]:
             seen[h] = True
             v = corners[h]
-            if closed[v] == seed:
-                drop_fan(twin, h, is_kept)
+            if walk[v] == seed:
+                one = fan_size(corners, twin, h, ahead[v], behind[v])[1]
+                other = fan_size(corners, twin, closed[v], ahead[v], behind[v])[1]
+                drop_fan(twin, h if one < other else closed[v], is_kept)
                 tangled += 1
             if place[v] >= 0:
                 size, depth = close_loop(corners, place, path, place[v], depth, loops, starts, count, size)
                 count += 1
                 for k in range(starts[count - 1] + 1, size):
-                    closed[corners[loops[k]]] = seed
+                    closed[corners[loops[k]]], walk[corners[loops[k]]] = loops[k], seed
             place[v], path[depth] = depth, h
             depth += 1
             h = along_rim(twin, h)

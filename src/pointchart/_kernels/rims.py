@@ -28,15 +28,15 @@ def count_votes(indptr, indices, is_open, first, last, votes):
 
 
 @njit(cache=True, nogil=True)
-def collect_triangles(points, indptr, indices, votes, spacing, least, widest, triangles, width, held):
-    """Write the triangles with enough votes and a circumradius under `widest` local spacings; return how many.
+def collect_triangles(points, indptr, indices, votes, spacing, widest, triangles, width, held):
+    """Write the triangles with votes and a circumradius under `widest` local spacings; return how many.
 
     `width` is that radius in spacings, `held` the votes.
     """
     count = 0
     for i in range(len(points)):
         for e in range(indptr[i], indptr[i + 1]):
-            if votes[e] < least:
+            if votes[e] == 0:
                 continue
             j, k = indices[e], indices[e + 1 if e + 1 < indptr[i + 1] else indptr[i]]
             radius = circumradius(points, i, j, k) / max(spacing[i], spacing[j], spacing[k])

@@ -1,6 +1,6 @@
 """Patchwork surfaces: triangles of which at most two share an edge, such as those on which neighbouring stars agree."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -8,6 +8,8 @@ from numpy.typing import ArrayLike
 from .._check import check_points
 from .._kernels.rims import (
     FULL,
+    JOINED,
+    TWISTED,
     close_up,
     collect_triangles,
     count_at_edges,
@@ -19,7 +21,7 @@ from .._kernels.rims import (
 from .._parallel import over_ranges
 from ..errors import InputError
 from ..neighbors import Neighborhoods
-from ..typing import Floats, Indices, Mask, Triangles
+from ..typing import Floats, Indices, Loop, Mask, Triangles
 
 LEAST_VOTES, ALL_VOTES = 2, 3
 WIDEST = 2.0  # circumradius of the largest triangle taken, in local spacings
@@ -43,6 +45,8 @@ class Patchwork:
         Triangles with the same number, that of one of them, are joined by edges and oriented alike; -1 for those that
         no orientation fits.
     n_points : int
+    spare, spare_edges : (s, 3) int32
+        Further triangles that may be put in and their edges, the best first: those that a single star holds.
     """
 
     triangles: Triangles
@@ -51,6 +55,8 @@ class Patchwork:
     sides: Indices
     part: Indices
     n_points: int
+    spare: Triangles
+    spare_edges: Indices
 
     def without(self, dropped: Mask) -> "Patchwork":
         """Return the patchwork without some triangles."""
@@ -59,9 +65,59 @@ class Patchwork:
         number = np.cumsum(~dropped, dtype=np.int32) - 1
         sides = self.sides.copy()
         close_up(sides, dropped, number)
-        # A part is named after a triangle that may be gone; any number that tells parts apart will do.
         kept = ~dropped
-        return Patchwork(self.triangles[kept], self.edge_of[kept], self.ends, sides, self.part[kept], self.n_points)
+        # A part is named after a triangle that may be gone; any number that tells parts apart will do.
+        part = self.part[kept]
+        return replace(self, triangles=self.triangles[kept], edge_of=self.edge_of[kept], sides=sides, part=part)
+
+    @property
+    def largest(self) -> Mask:
+        """Which triangles are of the largest part, (m,)."""
+        joined = self.part[self.part >= 0]
+        return np.asarray(self.part == (np.argmax(np.bincount(joined)) if len(joined) else 0))
+
+    def extended(self, loop: Loop) -> "Patchwork":
+        """Put spare triangles in wherever they fit, but none across a boundary.
+
+        Parameters
+        ----------
+        loop : (b,) int array
+            The boundary.
+
+        Returns
+        -------
+        Patchwork
+            Without spare triangles.
+
+        Examples
+        --------
+        >>> fan = patchwork([[0, 1, 4], [1, 2, 4]], 5)
+        >>> more = replace(fan, spare=np.array([[2, 3, 4]], np.int32), spare_edges=np.array([[9, 9, 9]], np.int32))
+        >>> len(more.extended(np.array([0, 1, 2, 3, 4])).spare)
+        0
+        """
+        m, k = len(self.triangles), len(self.spare)
+        bare = replace(self, spare=self.spare[:0], spare_edges=self.spare_edges[:0])
+        if k == 0:
+            return bare
+        ahead = np.full(self.n_points, -1, np.int32)
+        ahead[loop] = np.roll(loop, -1)
+        sides, (a, b) = self.sides.copy(), self.ends.T
+        is_boundary = ((ahead[a] == b) | (ahead[b] == a)) & (sides[:, 1] < 0)
+        sides[is_boundary, 1] = m + k
+        triangles, edge_of = np.concatenate([self.triangles, self.spare]), np.concatenate([self.edge_of, self.spare_edges])
+        # Triangles of a part hang on its first one.
+        _, first, place = np.unique(self.part, return_index=True, return_inverse=True)
+        is_twisted = self.part < 0
+        parent = np.arange(m + k, dtype=np.int32)
+        parent[:m][~is_twisted] = first[place][~is_twisted]
+        outcome = np.full(m + k, JOINED, np.int8)
+        outcome[:m][is_twisted] = TWISTED
+        is_odd, may_twist = np.zeros(m + k, np.bool_), np.zeros(m + k, np.bool_)
+        keep_manifold(triangles, np.arange(m, m + k), may_twist, edge_of, sides, parent, is_odd, outcome)
+        sides[is_boundary, 1] = -1
+        turn_alike(triangles, edge_of, parent, is_odd, outcome)
+        return replace(bare, triangles=triangles, edge_of=edge_of, sides=sides, part=parent).without(outcome == FULL)
 
 
 def patchwork(triangles: ArrayLike, n_points: int) -> Patchwork:
@@ -86,7 +142,8 @@ def patchwork(triangles: ArrayLike, n_points: int) -> Patchwork:
     """
     faces = np.array(triangles, dtype=np.int32).reshape(-1, 3)
     edge_of, ends = _named(faces, n_points)
-    return _taken(faces, edge_of, ends, np.arange(len(faces)), np.ones(len(faces), np.bool_), n_points)
+    order, may_twist = np.arange(len(faces)), np.ones(len(faces), np.bool_)
+    return _taken(faces, edge_of, ends, order, may_twist, n_points, faces[:0])
 
 
 def agreed_patchwork(points: ArrayLike, star: Neighborhoods, spacing: Floats) -> Patchwork:
@@ -112,20 +169,25 @@ def agreed_patchwork(points: ArrayLike, star: Neighborhoods, spacing: Floats) ->
     n, is_open = len(cloud), star.is_open
     votes = np.empty(len(star.indices), np.int8)
     over_ranges(lambda first, last: count_votes(star.indptr, star.indices, is_open, first, last, votes), n)
-    most = int(np.count_nonzero(votes >= LEAST_VOTES))
+    most = int(np.count_nonzero(votes > 0))
     faces, width, held = np.empty((most, 3), np.int32), np.empty(most), np.empty(most, np.int8)
-    m = collect_triangles(cloud, star.indptr, star.indices, votes, spacing, LEAST_VOTES, WIDEST, faces, width, held)
+    m = collect_triangles(cloud, star.indptr, star.indices, votes, spacing, WIDEST, faces, width, held)
     faces, width, held = faces[:m], width[:m], held[:m]
-    edge_of, ends = _named(faces, n)
+    spare = np.flatnonzero(held < LEAST_VOTES)
+    spare = spare[np.argsort(width[spare], kind="stable")]
+    is_held = held >= LEAST_VOTES
+    others, faces, width, held = faces[spare], faces[is_held], width[is_held], held[is_held]
+    edge_of, ends = _named(np.concatenate([faces, others]), n)
+    m = len(faces)
     # Only triangles at an edge that more than two want have to be compared.
     wanted = np.zeros(len(ends), np.int8)
     is_contested = np.empty(m, np.bool_)
-    count_at_edges(edge_of, wanted, is_contested)
+    count_at_edges(edge_of[:m], wanted, is_contested)
     contested = np.flatnonzero(is_contested)
     clear = [np.flatnonzero(~is_contested & (held == count)) for count in (ALL_VOTES, LEAST_VOTES)]
     in_turn = contested[np.lexsort((width[contested], -held[contested]))]
     # Two stars may agree on a triangle that folds over another; where three do, the surface itself is one-sided.
-    return _taken(faces, edge_of, ends, np.concatenate([*clear, in_turn]), held == ALL_VOTES, n)
+    return _taken(faces, edge_of, ends, np.concatenate([*clear, in_turn]), held == ALL_VOTES, n, others)
 
 
 def _named(faces: Triangles, n_points: int) -> tuple[Indices, Indices]:
@@ -136,11 +198,20 @@ def _named(faces: Triangles, n_points: int) -> tuple[Indices, Indices]:
 
 
 def _taken(
-    faces: Triangles, edge_of: Indices, ends: Indices, order: Indices, may_twist: Mask, n_points: int
+    faces: Triangles,
+    edge_of: Indices,
+    ends: Indices,
+    order: Indices,
+    may_twist: Mask,
+    n_points: int,
+    spare: Triangles,
 ) -> Patchwork:
+    """Take triangles in turn; the edges of the spare ones follow theirs."""
     m = len(faces)
+    own = np.ascontiguousarray(edge_of[:m])
     sides, parent, is_odd = np.full((len(ends), 2), -1, np.int32), np.empty(m, np.int32), np.zeros(m, np.bool_)
     outcome = np.empty(m, np.int8)
-    keep_manifold(faces, order, may_twist, edge_of, sides, parent, is_odd, outcome)
-    turn_alike(faces, edge_of, parent, is_odd, outcome)
-    return Patchwork(faces, edge_of, ends, sides, parent, n_points).without(outcome == FULL)
+    keep_manifold(faces, order, may_twist, own, sides, parent, is_odd, outcome)
+    turn_alike(faces, own, parent, is_odd, outcome)
+    whole = Patchwork(faces, own, ends, sides, parent, n_points, spare, edge_of[m:])
+    return whole.without(outcome == FULL)
