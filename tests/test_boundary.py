@@ -283,12 +283,14 @@ def test_the_scores_of_an_even_sampling_tell_its_boundary_exactly(name):
         assert getattr(scores, part)[on_edge].min() > 0.9
 
 
-def test_the_centroid_of_neighbours_on_an_edge_nears_that_of_half_a_disc_with_the_root_of_their_number():
-    counts, missing = np.array([20, 80, 320]), []
-    for k, half in zip(counts, (5, 7, 12), strict=True):
-        sheet = shapes.grid(4 * half + 1, 2 * half + 1)
-        missing.append(1 - scores_of(sheet.points, k).half_disc[2 * half])
-    assert np.polyfit(np.log(counts), np.log(missing), 1)[0] == pytest.approx(-0.5, abs=0.1)
+def test_the_centroid_of_neighbours_on_an_edge_nears_that_of_half_a_disc_with_the_spacing_over_its_radius():
+    radii, missing = np.array([5, 10, 20]), []
+    for radius in radii:
+        sheet, middle = shapes.grid(4 * radius + 1, 2 * radius + 1), 2 * radius
+        # As many as lie in half a disc, so that no other ones are as near as the last.
+        count = (np.linalg.norm(sheet.points - sheet.points[middle], axis=1) <= radius).sum() - 1
+        missing.append(1 - scores_of(sheet.points, int(count)).half_disc[middle])
+    assert np.polyfit(np.log(radii), np.log(missing), 1)[0] == pytest.approx(-1, abs=0.1)
 
 
 @pytest.mark.parametrize(

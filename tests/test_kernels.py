@@ -58,13 +58,11 @@ STEP = spacing(SHAPE.points)
 RAGGED = patchwork(SHAPE.triangles[7:], N)
 N_EDGES = len(RAGGED.ends)
 
-# A surface with gaps that touch, and one with a single gap of eight points and more.
+# A surface with gaps that touch, and two with a gap around one point or more.
 WITHIN = np.setdiff1d(np.arange(N), SHAPE.boundary)
 ASTRAY = int(WITHIN[7])
 TORN = half_edges(SHAPE.triangles[np.random.default_rng(4).random(M) < 0.6], N)
-GAPPED = half_edges(
-    SHAPE.triangles[~np.isin(SHAPE.triangles, SHAPE.triangles[(SHAPE.triangles == ASTRAY).any(axis=1)]).any(axis=1)], N
-)
+GAPPED = half_edges(SHAPE.triangles[~np.isin(SHAPE.triangles, WITHIN[:3]).any(axis=1)], N)
 HOLED = half_edges(SHAPE.triangles[(SHAPE.triangles != ASTRAY).all(axis=1)], N)
 AHEAD, BEHIND = np.full((2, N), -1, np.int32)
 AHEAD[SHAPE.boundary], BEHIND[SHAPE.boundary] = np.roll(SHAPE.boundary, -1), np.roll(SHAPE.boundary, 1)
@@ -90,7 +88,8 @@ def pocket_of(edges):
 
 def walks_of(edges):
     size = len(edges.twins)
-    return edges.origins, edges.twins, int32s(N) - 1, ints(size), ints(size), ints(size + 1), ~bools(size // 3)
+    scratch = int32s(N) - 1, ints(size), ints(size), ints(size + 1)
+    return edges.origins, edges.twins, AHEAD, BEHIND, *scratch, ~bools(size // 3)
 
 
 # A strip with one side, whose last triangle wants edges that have two already.
@@ -129,7 +128,14 @@ def joining(t):
 
 LINE = sp.diags_array([-1.0, 2.1, -1.2], offsets=[-1, 0, 1], shape=(15, 15))
 SYSTEM = sp.csr_array(sp.kron(LINE, sp.eye_array(15)) + sp.kron(sp.eye_array(15), LINE))
+COMPRESSED = SYSTEM.indptr, SYSTEM.indices, SYSTEM.data
 LEVELS = _levels(SYSTEM)
+LEVELS = LEVELS._replace(
+    indices=LEVELS.indices[: LEVELS.indptr[-1]],
+    data=LEVELS.data[: LEVELS.indptr[-1]],
+    p_indices=LEVELS.p_indices[: LEVELS.p_indptr[-1]],
+    p_data=LEVELS.p_data[: LEVELS.p_indptr[-1]],
+)
 FINE = _split(SYSTEM)
 STRONG = bools(len(FINE.data))
 coarsen.mark_strong.py_func(FINE.indptr, FINE.data, STRONG)
@@ -212,6 +218,7 @@ CASES = {
         3,
     ),
     "assemble.cut_walks": lambda: walks_of(TORN),
+    "assemble.drop_closed_fan": lambda: (EDGES.twins, int(FIRST[ASTRAY]), ~bools(M)),
     "assemble.drop_fan": lambda: (TORN.twins, int(np.flatnonzero(TORN.twins < 0)[3]), ~bools(M)),
     "assemble.ear_cost": lambda: (
         SHAPE.points,
@@ -345,6 +352,15 @@ CASES = {
     "constrain.two_sum": lambda: (1e16, 1.1),
     "constrain.unfold": lambda: (draft_in_plane(), int(draft_in_plane().leaving[FAR[0]]), 2),
     "crossings.find_crossing": lambda: (PENTAGRAM, *SWEEP, ints((320, 2))),
+    "crossings.sure_signs": lambda: (
+        np.array([[0.0, 0], [1, 1], [3, 3], [0.5, 0.6]]),
+        np.array([[0, 1, 2], [0, 2, 3], [0, 3, 2]]),
+        1e-15,
+        1e-300,
+        0,
+        3,
+        np.zeros(3, np.int8),
+    ),
     "crossings.turn": lambda: (0.0, 0.0, 1.0, 0.0, 0.5, 1e-300),
     "curvature_swaps.area_vector": lambda: (SHAPE.points, 7, 3, 5),
     "curvature_swaps.cotangents": lambda: (SHAPE.points, 0, 1, 2),
@@ -498,11 +514,11 @@ CASES = {
     "morton.morton_keys in a plane": lambda: (SHAPE.uv, SHAPE.uv.min(axis=0), (2**31 - 1) / 2.0, 31, 0, N, ints(N)),
     "multigrid.advance": lambda: (PAIR.copy(), PAIR[::-1].copy(), np.array([0.3, -2.0]), PAIR + 1, PAIR - 1),
     "multigrid.ascend": lambda: (LEVELS, 0, two_vectors()[1], two_vectors()[1]),
-    "multigrid.bicgstab_pair": lambda: (LEVELS, PAIR * [1, 0], PAIR * [0, 1], 1e-9, 30),
+    "multigrid.bicgstab_pair": lambda: (*COMPRESSED, LEVELS, PAIR * [1, 0], PAIR * [0, 1], 1e-9, 30),
     "multigrid.cycle": lambda: (LEVELS, *two_vectors()),
     "multigrid.descend": lambda: (LEVELS, 0, *two_vectors()),
     "multigrid.dots": lambda: (PAIR, PAIR[::-1].copy()),
-    "multigrid.multiply": lambda: (LEVELS, PAIR, np.zeros((225, 2))),
+    "multigrid.multiply": lambda: (*COMPRESSED, PAIR, np.zeros((225, 2))),
     "multigrid.quotients": lambda: (np.array([1.0, 2.0]), np.array([3.0, 0.0]), np.array([-1, -1])),
     "nearest.bound_boxes": lambda: (SHAPE.points, np.zeros((16, 3)), np.zeros((16, 3))),
     "nearest.find_nearest": lambda: (

@@ -4,7 +4,8 @@ from fractions import Fraction
 
 import numpy as np
 
-from ._kernels.crossings import find_crossing
+from ._kernels.crossings import UNSURE, find_crossing, sure_signs
+from ._parallel import over_ranges
 from .typing import UV, Indices, Triangles
 
 # Shewchuk 1997: a computed sign is right if the determinant exceeds (3 + 16 eps) eps times the sum of its terms.
@@ -22,13 +23,12 @@ def orientation_signs(uv: UV, triangles: Triangles) -> Indices:
     >>> import numpy as np
     >>> corners = np.array([[0.0, 0.0], [1.0, 1.0], [3.0, 3.0], [0.5, 0.5 + 2.0**-53]])
     >>> orientation_signs(corners, np.array([[0, 1, 2], [0, 2, 3], [0, 3, 2]]))
-    array([ 0,  1, -1])
+    array([ 0,  1, -1], dtype=int8)
     """
-    a, b, c = uv[triangles[:, 0]], uv[triangles[:, 1]], uv[triangles[:, 2]]
-    left = (a[:, 0] - c[:, 0]) * (b[:, 1] - c[:, 1])
-    right = (a[:, 1] - c[:, 1]) * (b[:, 0] - c[:, 0])
-    signs = np.sign(left - right).astype(np.int64)
-    for t in np.flatnonzero(np.abs(left - right) <= FILTER * (np.abs(left) + np.abs(right)) + SMALLEST_SAFE):
+    plane, faces = np.ascontiguousarray(uv, dtype=np.float64), np.asarray(triangles)
+    signs = np.empty(len(faces), np.int8)
+    over_ranges(lambda first, last: sure_signs(plane, faces, FILTER, SMALLEST_SAFE, first, last, signs), len(faces))
+    for t in np.flatnonzero(signs == UNSURE):
         (ax, ay), (bx, by), (cx, cy) = (map(Fraction, uv[corner].tolist()) for corner in triangles[t])
         area = (ax - cx) * (by - cy) - (ay - cy) * (bx - cx)
         signs[t] = (area > 0) - (area < 0)

@@ -54,11 +54,8 @@ def assemble(points: Points, surface: Patchwork, loop: Loop) -> Assembled | None
     >>> from pointchart.boundary import patchwork
     >>> pyramid = np.array([[0.0, 0, 0], [2, 0, 0], [2, 2, 0], [0, 2, 0], [1, 1, 1]])
     >>> sides = patchwork([[0, 1, 4], [1, 4, 2], [2, 3, 4], [4, 0, 3]], 5)
-    >>> assemble(pyramid, sides, np.array([3, 2, 1, 0])).triangles
-    array([[4, 1, 0],
-           [1, 2, 4],
-           [2, 3, 4],
-           [4, 3, 0]])
+    >>> assemble(pyramid, sides, np.array([3, 2, 1, 0])).triangles.tolist()
+    [[4, 1, 0], [4, 2, 1], [4, 3, 2], [0, 3, 4]]
     """
     n = len(points)
     cleared = _cleared(surface.extended(loop), loop)

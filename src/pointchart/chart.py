@@ -19,7 +19,7 @@ from .quality import l2_stretch, vertex_stretches
 from .refine import Meshed
 from .reopen import openings
 from .solve import Solver, solve_fixed
-from .typing import UV, Loop, Points, Triangles
+from .typing import UV, Loop, Points, Triangles, Weights
 from .weights import WeightScheme, fixed, mean_value, normalize, uniform
 
 QUICK_TOLERANCE = 1e-8
@@ -86,10 +86,13 @@ def _quick_map(points: Points, loop: Loop, boundary_uv: UV, rings: Neighborhoods
     """
     with suppress(SolveError):
         quick = partial(multigrid, tolerance=QUICK_TOLERANCE)
-        graph = sp.csr_array((mean_value(points, rings), rings.indices, rings.indptr), shape=(len(points),) * 2)
-        solution = solve_fixed(graph, loop, boundary_uv, solver=quick)
+        solution = solve_fixed(_matrix(mean_value(points, rings), rings), loop, boundary_uv, solver=quick)
         return Parameterization(solution.values, loop, solution)
     return None
+
+
+def _matrix(weights: Weights, rings: Neighborhoods) -> sp.csr_array:
+    return sp.csr_array((weights, rings.indices, rings.indptr), shape=(rings.n_points,) * 2)
 
 
 def uv_low_stretch(

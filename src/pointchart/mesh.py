@@ -42,8 +42,8 @@ def half_edges(triangles: Triangles, n_points: int) -> HalfEdges:
     Examples
     --------
     >>> import numpy as np
-    >>> half_edges(np.array([[0, 1, 2], [2, 1, 3]]), 4).twins
-    array([-1,  3, -1,  1, -1, -1], dtype=int32)
+    >>> half_edges(np.array([[0, 1, 2], [2, 1, 3]]), 4).twins.tolist()
+    [-1, 3, -1, 1, -1, -1]
     """
     origins = np.array(triangles, dtype=np.int32).ravel()
     twins = np.empty_like(origins)
@@ -75,8 +75,8 @@ def start_draft(points: Points, triangles: Triangles, *, journal: int) -> Draft:
     --------
     >>> import numpy as np
     >>> draft = start_draft(np.eye(3), np.array([[0, 1, 2]]), journal=0)
-    >>> draft.leaving
-    array([0, 1, 2], dtype=int32)
+    >>> draft.leaving.tolist()
+    [0, 1, 2]
     """
     edges = half_edges(triangles, len(points))
     leaving = np.full(len(points), -1, np.int32)
@@ -151,6 +151,6 @@ def one_rings(triangles: Triangles, n_points: int) -> Neighborhoods:
         edges.targets[edges.twins < 0], minlength=n_points
     )
     indptr = np.concatenate([[0], np.cumsum(sizes)])
-    indices, is_open = np.empty(indptr[-1], np.int64), np.empty(n_points, np.bool_)
+    indices, is_open = np.empty(indptr[-1], np.int32), np.empty(n_points, np.bool_)
     order_rings(edges.origins, edges.twins, first, indptr, indices, is_open)
     return Neighborhoods(indptr, indices, None, is_open)

@@ -28,7 +28,7 @@ def morton_order(points: Floats) -> Indices:
 
 
 def morton_keys(points: Floats) -> Indices:
-    """Number the cells of points along the Morton curve through their bounding box: 2^21 cells an axis in space.
+    """Give the cells of points their numbers along the Morton curve; there are 2^21 an axis in space.
 
     Examples
     --------

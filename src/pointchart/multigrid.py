@@ -21,6 +21,7 @@ from .errors import SolveError
 from .typing import Floats, Indices
 
 COARSEST = 200  # unknowns that are solved for directly
+ROOM = 4  # times the entries of the first level; all levels have about 1.6 times as many
 TOLERANCE = 1e-12
 MOST_ITERATIONS = 200
 
@@ -62,14 +63,15 @@ def multigrid(
     """
     n, d = right.shape
     levels = _levels(left)
-    solution = np.zeros((n, d)) if start is None else np.array(start, dtype=np.float64)
     counts: list[int] = []
+    solution = np.zeros((n, d)) if start is None else np.array(start, dtype=np.float64)
     for k in range(0, d, 2):
-        pair, x = np.zeros((n, 2)), np.zeros((n, 2))
-        width = min(2, d - k)
-        pair[:, :width], x[:, :width] = right[:, k : k + width], solution[:, k : k + width]
-        counts += bicgstab_pair(levels, pair, x, tolerance, MOST_ITERATIONS)[:width].tolist()
-        solution[:, k : k + width] = x[:, :width]
+        # A last column without a partner is solved for twice.
+        pair = [k, min(k + 1, d - 1)]
+        known, x = np.ascontiguousarray(right[:, pair], dtype=np.float64), np.ascontiguousarray(solution[:, pair])
+        found = bicgstab_pair(left.indptr, left.indices, left.data, levels, known, x, tolerance, MOST_ITERATIONS)
+        counts += found[: d - k].tolist()
+        solution[:, pair] = x
     if min(counts) < 0:
         raise SolveError(
             f"multigrid did not reach a relative residual of {tolerance:g} in {MOST_ITERATIONS} iterations "
@@ -97,31 +99,48 @@ class _Prolongation(NamedTuple):
 
 
 def _levels(left: sp.csr_array) -> Levels:
-    matrices, prolongations = [_split(left)], []
-    while len(matrices[-1].diagonal) > COARSEST:
-        prolongation, n_coarse = _interpolation(matrices[-1])
-        if n_coarse in (0, len(matrices[-1].diagonal)):
+    """Coarsen until few unknowns are left; all levels in the same arrays, in single precision but for the first's.
+
+    The arrays have more room than is needed; what is not written to takes no memory.
+    """
+    matrix, n = _split(left), left.shape[0]
+    room, p_room = ROOM * len(matrix.data), ROOM * (len(matrix.data) + n)
+    indices, data, p_indices, p_data = (
+        np.empty(size, kind) for size in (room, p_room) for kind in (np.int32, np.float32)
+    )
+    pieces: list[tuple[_Matrix, Indices]] = []
+    begin = p_begin = 0
+    while True:
+        end = begin + len(matrix.data)
+        indices[begin:end], data[begin:end] = matrix.indices, matrix.data
+        is_last = len(matrix.diagonal) <= COARSEST
+        prolongation, n_coarse = (None, 0) if is_last else _interpolation(matrix)
+        is_last = is_last or n_coarse in (0, len(matrix.diagonal))
+        p_indptr = np.full(len(matrix.indptr), p_begin)
+        if prolongation is not None and not is_last:
+            p_end = p_begin + len(prolongation.data)
+            p_indices[p_begin:p_end], p_data[p_begin:p_end] = prolongation.indices, prolongation.data
+            p_indptr, p_begin = prolongation.indptr + p_begin, p_end
+        light = _Matrix(matrix.indptr + begin, matrix.middle + begin, indices[:0], data[:0], matrix.diagonal)
+        pieces.append((light, p_indptr))
+        begin = end
+        if prolongation is None or is_last:
             break
-        matrices.append(_product(matrices[-1], prolongation, n_coarse))
-        prolongations.append(prolongation)
-    sizes = np.array([len(matrix.diagonal) for matrix in matrices])
-    begins = np.cumsum([0] + [len(matrix.data) for matrix in matrices])
-    p_begins = np.cumsum([0] + [len(p.data) for p in prolongations])
+        matrix = _product(matrix, prolongation, n_coarse)
+    sizes = np.array([len(piece.diagonal) for piece, _ in pieces])
     return Levels(
         sizes=sizes,
         places=np.concatenate([[0], np.cumsum(sizes)]),
         rows=np.concatenate([[0], np.cumsum(sizes + 1)])[:-1],
-        indptr=np.concatenate([matrix.indptr + begin for matrix, begin in zip(matrices, begins, strict=False)]),
-        middle=np.concatenate([matrix.middle + begin for matrix, begin in zip(matrices, begins, strict=False)]),
-        indices=np.concatenate([matrix.indices for matrix in matrices]),
-        data=np.concatenate([matrix.data for matrix in matrices]),
-        diagonal=np.concatenate([matrix.diagonal for matrix in matrices]),
-        p_indptr=np.concatenate([[0], *(p.indptr + begin for p, begin in zip(prolongations, p_begins, strict=False))])[
-            1 if prolongations else 0 :
-        ],
-        p_indices=np.concatenate([np.zeros(0, np.int32), *(p.indices for p in prolongations)]),
-        p_data=np.concatenate([np.zeros(0), *(p.data for p in prolongations)]),
-        coarsest=np.linalg.inv(_dense(matrices[-1])),
+        indptr=np.concatenate([piece.indptr for piece, _ in pieces]),
+        middle=np.concatenate([piece.middle for piece, _ in pieces]),
+        indices=indices,
+        data=data,
+        diagonal=np.concatenate([piece.diagonal for piece, _ in pieces]),
+        p_indptr=np.concatenate([p_indptr for _, p_indptr in pieces]),
+        p_indices=p_indices,
+        p_data=p_data,
+        coarsest=np.linalg.inv(_dense(matrix)),
     )
 
 

@@ -154,8 +154,8 @@ def nearest(points: ArrayLike, k: int = 20) -> Neighborhoods:
 
     Examples
     --------
-    >>> nearest([[0, 0, 0], [1, 0, 0], [3, 0, 0], [3, 1, 0]], k=1).indices
-    array([1, 0, 3, 2])
+    >>> nearest([[0, 0, 0], [1, 0, 0], [3, 0, 0], [3, 1, 0]], k=1).indices.tolist()
+    [1, 0, 3, 2]
     """
     cloud = check_points(points)
     if k < 1:
@@ -198,7 +198,7 @@ class BoxTree:
         bound_boxes(points, self._low, self._high)
 
     def nearest(self, k: int, queries: Indices | None = None) -> Indices:
-        """Find the `k` nearest others of some points, or of all, nearest first: (q, k) int32; all if there are fewer."""
+        """Find the `k` nearest others, if there are as many, of some points or of all, nearest first: (q, k) int32."""
         points = self._points
         places = np.arange(len(points), dtype=np.int32) if queries is None else queries
         found = np.empty((len(places), min(k, len(points) - 1)), np.int32)

@@ -16,6 +16,7 @@ from .gaps import GapRule, Rims, bridge_gaps, check_torn, refuse_second_boundary
 from .links import disputed_links, link_stars, tie_down, trusted
 from .neighbors import Neighborhoods, nearest
 from .parameterize import Parameterization, parameterize
+from .prepare import Cloud
 from .refine import Meshed, SwapRule, mesh_by_agreement, mesh_by_links, mesh_once
 from .solve import Solver, default_solver
 from .stars import nearest_star
@@ -155,11 +156,13 @@ def reconstruct(
     """
     clock = clock or StageClock()
     survey = survey_scan(points, loop, outer=outer, clock=clock)
+    cloud, scan = survey.cloud, survey.scan
     rule = gaps or (refuse_second_boundary if loop is None and outer is None else bridge_gaps)
     trials = survey.trials[:TRIALS] if outer is None else [survey]
     stand = _first_that_stands(trials, rule, lambda trial: _mesh(trial, connect, weights, swap, chart, solver, clock))
-    cloud, rim = survey.cloud, stand.survey.loop
-    boundary_uv = layout(survey.scan, cloud.rows[rim])
+    del survey, trials  # most of the memory, which the map needs
+    rim = stand.rims.loop
+    boundary_uv = layout(scan, cloud.rows[rim])
     with points_called(cloud.rows):
         with clock("swap"):
             meshed = _swapped_again(cloud.points, stand, swap)
@@ -169,10 +172,10 @@ def reconstruct(
         with clock("certify"):
             patches = stand.rims.patches(stand.opened, meshed.swapped.triangles)
             triangles, holes = open_gaps(meshed.swapped.triangles, patches, len(cloud.points))
-            spacing = survey.vicinity.spacing
+            spacing = stand.rims.spacing / cloud.scale
             proof = certify(cloud.points, triangles, uv=mapped.uv, loop=rim, spacing=spacing, holes=holes)
             _check_proof(proof, chart)
-    return _in_rows(replace(stand, meshed=meshed), triangles, mapped, proof)
+    return _in_rows(cloud, replace(stand, meshed=meshed), triangles, mapped, proof)
 
 
 def parameterize_scan(
@@ -222,9 +225,9 @@ def _default_stars(points: Points) -> Neighborhoods:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Stand:
-    """A mesh that stands, with the survey of the loop that it has for its boundary."""
+    """A mesh that stands, with the loops that its boundary was chosen from."""
 
-    survey: Survey
+    candidates: list[Candidate]
     meshed: Meshed
     bridges: list[Bridge]
     rims: Rims
@@ -262,7 +265,7 @@ def _stand(survey: Survey, meshed: Meshed) -> _Stand:
     rims = Rims(points, spacing, survey.loop, gaps, survey.candidates[1:])
     if bridges:
         check_torn(rims, bridges, disputed_links(survey.vicinity.star), is_given=survey.found is None)
-    return _Stand(survey, meshed, bridges, rims, [], [])
+    return _Stand(survey.candidates, meshed, bridges, rims, [], [])
 
 
 def _mesh(
@@ -324,14 +327,15 @@ def _check_proof(proof: Certificate, chart: ChartRule) -> None:
         )
 
 
-def _in_rows(stand: _Stand, triangles: Triangles, mapped: Parameterization, proof: Certificate) -> Reconstruction:
+def _in_rows(
+    cloud: Cloud, stand: _Stand, triangles: Triangles, mapped: Parameterization, proof: Certificate
+) -> Reconstruction:
     """Return everything in the numbering of the scan."""
-    cloud = stand.survey.cloud
     order = np.argsort(cloud.rows)
     vertex = np.empty_like(order)
     vertex[order] = np.arange(len(order))
-    candidates = [replace(c, loop=vertex[c.loop], length=cloud.scale * c.length) for c in stand.survey.candidates]
+    candidates = [replace(c, loop=vertex[c.loop], length=cloud.scale * c.length) for c in stand.candidates]
     bridges = [replace(bridge, points=vertex[bridge.points]) for bridge in stand.bridges]
     evidence = Evidence(candidates, bridges, stand.failures, stand.meshed, mapped)
-    loop = vertex[stand.survey.loop]
+    loop = vertex[stand.rims.loop]
     return Reconstruction(cloud.rows[order], vertex[triangles], mapped.uv[order], loop, proof, evidence)

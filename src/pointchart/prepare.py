@@ -79,7 +79,7 @@ def prepare(points: ArrayLike) -> Cloud:
 
 
 def _first_rows(points: Points, order: Indices, keys: Indices) -> Indices:
-    """Return for each point the first row with the same coordinates, (n,) int32, given its order and keys along a curve.
+    """Return for each point the first row of its coordinates, (n,) int32, given its order and keys along a curve.
 
     Only points that share their key can be the same.
     """

@@ -59,9 +59,8 @@ def recover_links(points: Points, uv: UV, triangles: Triangles, links: Links) ->
     >>> from pointchart.stars import delaunay_star
     >>> kite = np.array([[0.0, 0, 0], [9, 0, 0], [4, 1, 0], [4, -1, 0]])
     >>> links = link_stars(delaunay_star(kite, nearest(kite, 3)))
-    >>> recover_links(kite, kite[:, :2].copy(), np.array([[0, 1, 2], [1, 0, 3]]), links).triangles
-    array([[3, 1, 2],
-           [2, 0, 3]])
+    >>> recover_links(kite, kite[:, :2].copy(), np.array([[0, 1, 2], [1, 0, 3]]), links).triangles.tolist()
+    [[3, 1, 2], [2, 0, 3]]
     """
     graph = links.neighborhoods
     is_meant = (graph.rows < graph.indices) & (links.trust == FULL_TRUST)

@@ -97,6 +97,7 @@ def solve_fixed(matrix: sp.csr_array, fixed: Indices, values: Floats, *, solver:
     if len(free) == 0:
         return Solution(full, 0.0, (), "none", 0, 0)
     left, right = _reduced(matrix, free, full)
+    del matrix  # large, and of no more use
     chosen = solver or default_solver(len(free))
     # Numbers that run over are found out by the residual.
     with points_called(free), np.errstate(over="ignore", invalid="ignore"):

@@ -138,7 +138,9 @@ def delaunay_star(points: ArrayLike, around: Neighborhoods, *, planes: Neighborh
     return _stars(cloud, normals(cloud, planes or around), around)[0]
 
 
-def nearest_star(points: ArrayLike, around: Neighborhoods, *, normal: Floats | None = None) -> Neighborhoods:
+def nearest_star(
+    points: ArrayLike, around: Neighborhoods, *, normal: Floats | None = None, local: bool = True
+) -> Neighborhoods:
     """Find the Delaunay neighbours of each point among its nearest, and among more where its star asks for it.
 
     A star is the true one if no point beyond the candidates can lie in one of its circles: if its largest
@@ -154,6 +156,8 @@ def nearest_star(points: ArrayLike, around: Neighborhoods, *, normal: Floats | N
         The same number of nearest points of each, nearest first.
     normal : (n, 3) array, optional
         Of the planes; fitted, if not given.
+    local : bool
+        Whether positions in the planes are kept.
 
     Returns
     -------
@@ -171,7 +175,7 @@ def nearest_star(points: ArrayLike, around: Neighborhoods, *, normal: Floats | N
     cloud = check_points(points)
     check_neighbors(around.indices, around.n_points, len(cloud))
     normal = normals(cloud, around, fading=FADING) if normal is None else normal
-    found, diameter = _stars(cloud, normal, around)
+    found, diameter = _stars(cloud, normal, around, local=local)
     reach = np.linalg.norm(cloud[around.indices[around.indptr[1:] - 1]] - cloud, axis=1)
     short = np.flatnonzero(~np.asarray(found.is_open) & (diameter > reach))
     wide = min(WIDER * int(around.sizes.max()), len(cloud) - 1)
@@ -181,7 +185,7 @@ def nearest_star(points: ArrayLike, around: Neighborhoods, *, normal: Floats | N
     sizes[short] = wide
     candidates = BoxTree(cloud).nearest(wide, short)
     widened = Neighborhoods(np.concatenate([[0], np.cumsum(sizes)]), candidates.ravel())
-    return _with_rows(found, short, _stars(cloud, normal, widened)[0])
+    return _with_rows(found, short, _stars(cloud, normal, widened, local=local)[0])
 
 
 def _with_rows(found: Neighborhoods, rows: Indices, by: Neighborhoods) -> Neighborhoods:
@@ -192,9 +196,11 @@ def _with_rows(found: Neighborhoods, rows: Indices, by: Neighborhoods) -> Neighb
     is_new = np.zeros(found.n_points, bool)
     is_new[rows] = True
     of_new, of_old = np.repeat(is_new, sizes), np.repeat(~is_new, found.sizes)
-    indices, local = np.empty(indptr[-1], found.indices.dtype), np.empty((indptr[-1], 2))
+    indices, local = np.empty(indptr[-1], found.indices.dtype), None
     indices[of_new], indices[~of_new] = by.indices, found.indices[of_old]
-    local[of_new], local[~of_new] = by.local, np.asarray(found.local)[of_old]
+    if found.local is not None:
+        local = np.empty((indptr[-1], 2))
+        local[of_new], local[~of_new] = by.local, found.local[of_old]
     is_open, width = np.where(is_new, by.is_open, found.is_open), np.where(is_new, by.width, found.width)
     return Neighborhoods(indptr, indices, local, is_open, width)
 
@@ -209,7 +215,7 @@ def _planes(cloud: Points, around: Neighborhoods, fading: float) -> tuple[Floats
     return normal, offset
 
 
-def _stars(cloud: Points, normal: Floats, around: Neighborhoods) -> tuple[Neighborhoods, Floats]:
+def _stars(cloud: Points, normal: Floats, around: Neighborhoods, *, local: bool = True) -> tuple[Neighborhoods, Floats]:
     """Find all stars; return the diameter of the largest circle of each, too, open or not."""
     n = len(cloud)
     count, is_open, diameter = np.empty(n, np.int64), np.empty(n, np.bool_), np.empty(n)
@@ -217,13 +223,13 @@ def _stars(cloud: Points, normal: Floats, around: Neighborhoods) -> tuple[Neighb
 
     def find(first: int, last: int) -> None:
         room = int(around.indptr[last] - around.indptr[first])
-        star, local = np.empty(room, around.indices.dtype), np.empty((room, 2))
+        star, places = np.empty(room, around.indices.dtype), np.empty((room, 2))
         size = stars_kernel(
-            cloud, normal, around.indptr, around.indices, STEEPEST, first, last, star, local, count, is_open, diameter
+            cloud, normal, around.indptr, around.indices, STEEPEST, first, last, star, places, count, is_open, diameter
         )
-        parts[first] = star[:size].copy(), local[:size].copy()
+        parts[first] = star[:size].copy(), places[: size if local else 0].copy()
 
     over_ranges(find, n)
-    indices, local = (np.concatenate([parts[first][k] for first in sorted(parts)]) for k in range(2))
-    width = np.where(is_open, np.inf, 0.5 * diameter)
-    return Neighborhoods(np.concatenate([[0], np.cumsum(count)]), indices, local, is_open, width), diameter
+    indices, places = (np.concatenate([parts[first][k] for first in sorted(parts)]) for k in range(2))
+    indptr, width = np.concatenate([[0], np.cumsum(count)]), np.where(is_open, np.inf, 0.5 * diameter)
+    return Neighborhoods(indptr, indices, places if local else None, is_open, width), diameter

@@ -72,8 +72,8 @@ class Survey:
         """How much speaks for each point of the cloud lying on a boundary."""
         if self.found is not None:
             return self.found.scores
-        near = self.vicinity
-        return boundary_scores(near.smoothed, near.around, near.star, self._agreed.triangles, near.spacing, normal=near.normal)
+        near, agreed = self.vicinity, self._agreed.triangles
+        return boundary_scores(near.smoothed, near.around, near.star, agreed, near.spacing, normal=near.normal)
 
     @property
     def surface(self) -> Patchwork:

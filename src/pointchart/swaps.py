@@ -63,9 +63,8 @@ def swap_to_delaunay(points: ArrayLike, triangles: Triangles) -> Swapped:
     Examples
     --------
     >>> flat_kite = [[0, 0, 0], [9, 0, 0], [4, 1, 0], [4, -1, 0]]
-    >>> swap_to_delaunay(flat_kite, [[0, 1, 2], [1, 0, 3]]).triangles
-    array([[3, 1, 2],
-           [2, 0, 3]])
+    >>> swap_to_delaunay(flat_kite, [[0, 1, 2], [1, 0, 3]]).triangles.tolist()
+    [[3, 1, 2], [2, 0, 3]]
     """
     cloud = check_points(points)
     edges = half_edges(check_triangles(triangles, len(cloud)), len(cloud))

@@ -1,6 +1,6 @@
 """What is around each point: the nearest points, how far apart they are, and the star on the smoothed surface."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from numpy.typing import ArrayLike
 
@@ -63,5 +63,5 @@ def explore(points: ArrayLike) -> Vicinity:
     spacing = local_spacing(cloud, around=around)
     smoothed = smooth(cloud, around)
     normal = normals(smoothed, around, fading=FADING)
-    star = replace(nearest_star(break_ties(smoothed, spacing), around, normal=normal), local=None)
+    star = nearest_star(break_ties(smoothed, spacing), around, normal=normal, local=False)
     return Vicinity(around, spacing, smoothed, normal, star)

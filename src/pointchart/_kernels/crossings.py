@@ -2,6 +2,8 @@
 
 from numba import njit
 
+UNSURE = 2
+
 # Shewchuk 1997: a computed orientation is right if it exceeds this share of the sum of its terms.
 FILTER = 3.3306690738754716e-16
 
@@ -47,3 +49,20 @@ def find_crossing(polygon, order, low, high, unsure):
             unsure[count, 0], unsure[count, 1] = i, j
             count += 1
     return False, count
+
+
+@njit(cache=True, nogil=True)
+def sure_signs(uv, triangles, share, least, first, last, signs):
+    """Write the signs of the areas of triangles first..last, UNSURE where rounding may have turned them.
+
+    A sign is sure if the determinant exceeds `share` of the size of its terms, and `least`.
+    """
+    for t in range(first, last):
+        a, b, c = triangles[t, 0], triangles[t, 1], triangles[t, 2]
+        left = (uv[a, 0] - uv[c, 0]) * (uv[b, 1] - uv[c, 1])
+        right = (uv[a, 1] - uv[c, 1]) * (uv[b, 0] - uv[c, 0])
+        area = left - right
+        if abs(area) <= share * (abs(left) + abs(right)) + least:
+            signs[t] = UNSURE
+        else:
+            signs[t] = 1 if area > 0.0 else -1

@@ -124,7 +124,7 @@ def count_parts(corners, n_points):
 
 @njit(cache=True, nogil=True)
 def measure_edges(points, corners, twin, spacing, sharpest, first, last, ratios):
-    """Write the length of half-edges first..last over the larger spacing at their ends; return how many edges are folds.
+    """Write the length of half-edges first..last over the larger spacing at their ends; return how many are folds.
 
     A fold turns by more than an angle of cosine `sharpest`.
     """

@@ -11,7 +11,10 @@ from numba import njit
 
 
 class Levels(NamedTuple):
-    """Matrices of all levels, interpolations to each from the next, and the inverse of the coarsest matrix."""
+    """Matrices of all levels, interpolations to each from the next, and the inverse of the coarsest matrix.
+
+    Entries may be of single precision: what they make is a preconditioner.
+    """
 
     sizes: Any
     places: Any
@@ -28,13 +31,12 @@ class Levels(NamedTuple):
 
 
 @njit(cache=True, nogil=True)
-def multiply(levels, x, y):
-    """Write the product of the finest matrix and x, (n, 2), to y."""
+def multiply(indptr, indices, data, x, y):
+    """Write the product of a matrix in compressed rows and x, (n, 2), to y."""
     for i in range(len(y)):
-        d = levels.diagonal[i]
-        s, t = d * x[i, 0], d * x[i, 1]
-        for e in range(levels.indptr[i], levels.indptr[i + 1]):
-            j, a = levels.indices[e], levels.data[e]
+        s = t = 0.0
+        for e in range(indptr[i], indptr[i + 1]):
+            j, a = indices[e], data[e]
             s, t = s + a * x[j, 0], t + a * x[j, 1]
         y[i, 0], y[i, 1] = s, t
 
@@ -136,15 +138,17 @@ def advance(x, r, step, along, across):
 
 
 @njit(cache=True, nogil=True)
-def bicgstab_pair(levels, right, x, tolerance, most):
+def bicgstab_pair(indptr, indices, data, levels, right, x, tolerance, most):
     """Solve for both columns of `right` from the start `x`; return the iterations of each, -1 where `most` are too few.
+
+    The matrix is given in compressed rows, and by its levels.
 
     van der Vorst 1992, preconditioned from the right; a column that has converged is left alone.
     """
     n = len(right)
     guess, known = np.empty((levels.places[-1], 2)), np.empty((levels.places[-1], 2))
     v, t = np.empty((n, 2)), np.empty((n, 2))
-    multiply(levels, x, v)
+    multiply(indptr, indices, data, x, v)
     r = right - v
     shadow, p = r.copy(), r.copy()
     rho, small = dots(shadow, r), tolerance**2 * dots(right, right)
@@ -158,12 +162,12 @@ def bicgstab_pair(levels, right, x, tolerance, most):
             break
         known[:n] = p
         cycle(levels, guess, known)
-        multiply(levels, guess, v)
+        multiply(indptr, indices, data, guess, v)
         alpha = quotients(rho, dots(shadow, v), counts)
         advance(x, r, alpha, guess, v)
         known[:n] = r
         cycle(levels, guess, known)
-        multiply(levels, guess, t)
+        multiply(indptr, indices, data, guess, t)
         omega = quotients(dots(t, r), dots(t, t), counts)
         advance(x, r, omega, guess, t)
         before, rho = rho, dots(shadow, r)

@@ -105,7 +105,8 @@ class Patchwork:
         sides, (a, b) = self.sides.copy(), self.ends.T
         is_boundary = ((ahead[a] == b) | (ahead[b] == a)) & (sides[:, 1] < 0)
         sides[is_boundary, 1] = m + k
-        triangles, edge_of = np.concatenate([self.triangles, self.spare]), np.concatenate([self.edge_of, self.spare_edges])
+        triangles = np.concatenate([self.triangles, self.spare])
+        edge_of = np.concatenate([self.edge_of, self.spare_edges])
         # Triangles of a part hang on its first one.
         _, first, place = np.unique(self.part, return_index=True, return_inverse=True)
         is_twisted = self.part < 0
