@@ -1,5 +1,4 @@
 import json
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -29,13 +28,17 @@ from pointchart import (
     vertex_stretches,
     write_mesh,
 )
+from pointchart import chart as charts
 from pointchart._exact import is_simple, orientation_signs
 from pointchart.boundary import chord_length_on_circle
+from pointchart.chart import DIRECT_LIMIT, QUICK_TOLERANCE
 from pointchart.cli.choices import CHARTS, Chart
 from pointchart.dirichlet import first_flat
 from pointchart.pipeline import _check_proof
 from pointchart.quality import area_vectors
+from pointchart.refine import Meshed
 from pointchart.report import quality_report
+from pointchart.swaps import Swapped
 
 ONE_TO_ONE = [uv_on_mesh, uv_low_stretch, uv_free_boundary]
 PROTRUDING = {"hemisphere": lambda: shapes.hemisphere(500, angle=150), "tube": lambda: shapes.tube(6, n_around=16)}
@@ -45,9 +48,15 @@ WHOLE = np.array([[0, 1, 2], [0, 2, 3]])
 
 def charted(chart, shape):
     """Return the parameters that a chart gives to the mesh of a shape."""
-    meshed = SimpleNamespace(swapped=SimpleNamespace(triangles=shape.triangles))
+    meshed = Meshed(Swapped(shape.triangles, 0, True))
     layout = chord_length_on_circle(shape.points, shape.boundary)
     return chart(shape.points, shape.boundary, layout, meshed, direct).uv
+
+
+def large_disc():
+    """Return a disc of more points than are mapped directly at once, and its mesh without a map."""
+    shape = shapes.relief(DIRECT_LIMIT + 2000, seed=3)
+    return shape, Meshed(Swapped(shape.triangles, 0, True))
 
 
 def freed(shape, **options):
@@ -88,6 +97,57 @@ def test_a_chart_that_is_not_one_to_one_is_refused(chart):
     with pytest.raises(SolveError, match="the parameters are not one-to-one: 1 triangles are flat"):
         _check_proof(proof, chart)
     _check_proof(proof, uv_of_points)
+
+
+# Large meshes
+
+
+def test_a_large_mesh_is_mapped_by_multigrid_as_by_factors_up_to_its_tolerance():
+    shape, meshed = large_disc()
+    layout = chord_length_on_circle(shape.points, shape.boundary)
+    quick, exact = (uv_on_mesh(shape.points, shape.boundary, layout, meshed, solver) for solver in (None, direct))
+    assert [mapped.solution.method for mapped in (quick, exact)] == ["multigrid", "direct"]
+    assert quick.solution.residual <= 1.01 * QUICK_TOLERANCE
+    assert np.abs(quick.uv - exact.uv).max() < 100 * QUICK_TOLERANCE
+    assert np.array_equal(quick.uv[shape.boundary], layout)
+    for mapped in (quick, exact):
+        assert (orientation_signs(mapped.uv, shape.triangles) > 0).all()
+
+
+def folded(left, right, **_):
+    """Solve, and let two unknowns change places."""
+    solution = direct(left, right)[0]
+    solution[[0, 1]] = solution[[1, 0]]
+    return solution, ()
+
+
+def hopeless(left, right, **_):
+    raise SolveError("missed")
+
+
+@pytest.mark.parametrize("quick", [folded, hopeless])
+def test_a_large_mesh_is_mapped_to_the_last_digits_where_the_quick_map_does_not_do(monkeypatch, quick):
+    monkeypatch.setattr(charts, "multigrid", quick)
+    shape, meshed = large_disc()
+    layout = chord_length_on_circle(shape.points, shape.boundary)
+    mapped = uv_on_mesh(shape.points, shape.boundary, layout, meshed, None)
+    assert mapped.solution.method == "direct"
+    assert (orientation_signs(mapped.uv, shape.triangles) > 0).all()
+
+
+def test_a_long_tube_of_many_points_is_mapped_one_to_one():
+    tube = shapes.tube(10, n_around=100)
+    assert len(tube.points) > DIRECT_LIMIT
+    result = reconstruct(tube.points, tube.boundary)
+    assert result.certificate.is_disc
+    assert result.certificate.is_one_to_one
+
+
+def test_a_mesh_that_was_assembled_has_no_parameters_of_the_points():
+    shape = shapes.hemisphere(300)
+    layout = chord_length_on_circle(shape.points, shape.boundary)
+    with pytest.raises(InputError, match="the mesh was made without a map, so it has no parameters of the points"):
+        uv_of_points(shape.points, shape.boundary, layout, Meshed(Swapped(shape.triangles, 0, True)), direct)
 
 
 # Low stretch
@@ -164,7 +224,7 @@ def test_a_strip_that_curls_over_itself_stops_before_it_overlaps():
         grid.triangles[:, ::-1] if orientation_signs(np.c_[r * t, -r], grid.triangles)[0] < 0 else grid.triangles
     )
     loop = shapes.Shape(points, triangles, grid.uv).boundary
-    meshed = SimpleNamespace(swapped=SimpleNamespace(triangles=triangles))
+    meshed = Meshed(Swapped(triangles, 0, True))
     uv = uv_free_boundary(points, loop, chord_length_on_circle(points, loop), meshed, direct).uv
     proof = certify(points, triangles, uv=uv, loop=loop)
     assert proof.is_one_to_one

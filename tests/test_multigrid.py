@@ -104,6 +104,15 @@ def test_powers_of_two_of_the_right_side_scale_the_solution_exactly():
     assert np.array_equal(multigrid(left, 2.0**20 * right)[0], 2.0**20 * multigrid(left, right)[0])
 
 
+@pytest.mark.parametrize("unit", [2.0**-60, 2.0**60])
+def test_the_unit_of_the_equations_does_not_matter(unit):
+    left, right = random_system(3, 900)
+    scaled, counts = multigrid(sp.csr_array(unit * left), unit * right)
+    plain, wanted = multigrid(left, right)
+    assert counts == wanted
+    assert np.array_equal(scaled, plain)
+
+
 @settings(max_examples=10)
 @given(seeds)
 def test_the_numbering_does_not_matter(seed):
@@ -208,7 +217,18 @@ def test_rows_need_not_be_sorted():
     order = np.lexsort([-left.indices, np.repeat(np.arange(900), np.diff(left.indptr))])
     turned = sp.csr_array((left.data[order], left.indices[order], left.indptr))
     assert not turned.has_sorted_indices
-    assert np.array_equal(multigrid(turned, right)[0], multigrid(left, right)[0])
+    assert np.allclose(multigrid(turned, right)[0], multigrid(left, right)[0], rtol=1e-9, atol=1e-9)
+
+
+@settings(max_examples=5)
+@given(seeds, st.integers(500, 1500))
+def test_graphs_of_no_surface_whose_levels_fill_up_are_solved_too(seed, n):
+    rng = np.random.default_rng(seed)
+    graph = sp.random_array((n, n), density=4 / n, rng=rng)
+    graph = sp.csr_array(graph - sp.diags_array(graph.diagonal()))
+    left = sp.csr_array(sp.diags_array(graph.sum(axis=1) + 0.1) - graph)
+    right = rng.normal(size=(n, 2))
+    assert np.abs(multigrid(left, right)[0] - direct(left, right)[0]).max() < 1e-9
 
 
 # Failures

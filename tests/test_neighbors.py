@@ -5,7 +5,7 @@ from hypothesis import strategies as st
 from strategies import clouds, rotations, seeds
 
 from pointchart.errors import InputError
-from pointchart.neighbors import ball, from_pairs, nearest, spacing
+from pointchart.neighbors import BoxTree, ball, from_pairs, nearest, rectangular, spacing
 from pointchart.shapes import bent_sheet, disc, grid, hemisphere
 from pointchart.stars import break_ties, delaunay_star, normals
 
@@ -65,6 +65,35 @@ def test_the_nearest_are_all_others_where_there_are_few():
     points = hemisphere(9).points
     rows = rows_of(nearest(points, 50))
     assert all(sorted([i, *row.tolist()]) == list(range(9)) for i, row in enumerate(rows))
+
+
+@settings(max_examples=30)
+@given(clouds(smallest=4), st.integers(1, 25), seeds)
+def test_a_tree_finds_the_nearest_of_points_in_any_order_for_any_of_them(points, k, seed):
+    rng = np.random.default_rng(seed)
+    mixed = rng.permutation(points)
+    asked = rng.integers(0, len(points), 20).astype(np.int32)
+    distance = distances(mixed)
+    np.fill_diagonal(distance, np.inf)
+    tree = BoxTree(mixed)
+    found = tree.nearest(k, asked)
+    far = np.take_along_axis(distance[asked], found, axis=1)
+    assert np.allclose(far, np.sort(distance[asked], axis=1)[:, : found.shape[1]], rtol=1e-12)
+    assert found.shape == (20, min(k, len(points) - 1))
+    assert np.array_equal(tree.nearest(k)[asked], found)
+
+
+@pytest.mark.parametrize("n", range(2, 20))
+def test_points_on_a_line_are_found_in_turn(n):
+    line = np.outer(2.0 ** np.arange(n), [1, 0, 0])
+    found = BoxTree(line).nearest(n)
+    assert [row.tolist() for row in found] == [[*range(i - 1, -1, -1), *range(i + 1, n)] for i in range(n)]
+
+
+def test_neighbourhoods_of_one_size_are_the_rows_of_a_rectangle():
+    hood = rectangular(np.array([[1, 2], [2, 0], [0, 1]]))
+    assert hood.sizes.tolist() == [2, 2, 2]
+    assert [row.tolist() for row in rows_of(hood)] == [[1, 2], [2, 0], [0, 1]]
 
 
 def test_no_point_is_its_own_neighbour_even_where_points_coincide():

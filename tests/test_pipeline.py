@@ -515,23 +515,21 @@ def test_holes_are_left_open_whatever_the_domain_and_the_weights(layout, weights
 # Evidence
 
 
-def test_the_stages_are_timed_in_order():
+@pytest.mark.parametrize(
+    ("shape", "options", "between"),
+    [
+        (SIMULATED["hemisphere"](), {}, ["assemble", "swap", "relocate"]),
+        (shapes.fold(1.5), {}, ["assemble", "map", "triangulate", "recover", "swap", "relocate"]),
+        (SIMULATED["hemisphere"](), {"weights": mean_value}, ["map", "triangulate", "swap"]),
+    ],
+    ids=["assembled", "mapped where stars do not agree", "mapped by the weights asked for"],
+)
+def test_the_stages_are_timed_in_order(shape, options, between):
     heard = []
     clock = StageClock(heard.append)
-    reconstruct(shapes.hemisphere(200).points, clock=clock)
+    reconstruct(shape.points, shape.boundary, clock=clock, **options)
     assert list(clock.seconds) == list(dict.fromkeys(heard))
-    assert list(clock.seconds) == [
-        "prepare",
-        "neighbours",
-        "boundary",
-        "map",
-        "triangulate",
-        "recover",
-        "swap",
-        "relocate",
-        "parameters",
-        "certify",
-    ]
+    assert list(clock.seconds) == ["prepare", "neighbours", "boundary", *between, "parameters", "certify"]
 
 
 def test_the_evidence_is_in_the_numbers_and_the_unit_of_the_scan():

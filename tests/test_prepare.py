@@ -93,6 +93,18 @@ def test_prepared_points_are_the_scan_without_unit_and_offset(points):
     assert np.log2(scale) == np.round(np.log2(scale))
 
 
+@settings(max_examples=40)
+@given(clouds(), seeds, st.integers(-30, 30))
+def test_every_row_of_the_scan_has_its_place_among_the_points(points, seed, exponent):
+    scan = np.ldexp(points[np.random.default_rng(seed).integers(0, len(points), 2 * len(points))], exponent)
+    cloud = prepare(scan)
+    assert np.array_equal(scan[cloud.rows[cloud.places]], scan)
+    assert np.array_equal(cloud.places[cloud.rows], np.arange(len(cloud.rows)))
+    assert cloud.n_repeated == len(scan) - len(np.unique(scan, axis=0))
+    back = cloud.points[cloud.places] * cloud.scale
+    assert np.allclose(back - back[0], scan - scan[0], rtol=0, atol=1e-12 * cloud.scale)
+
+
 def test_negative_zeros_repeat_positive_ones():
     points = np.array([[0.0, 0, 0], [-0.0, 0, -0.0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
     assert prepare(points).rows.tolist().count(1) == 0

@@ -23,6 +23,7 @@ WHOLE = [[0, 1, 2], [0, 2, 3]]
 CONTRACT = {
     "boundary": {"points", "length", "origin", "loops", "gaps", "doubts", "tried_before"},
     "solve": {"unknowns", "nonzeros", "method", "iterations", "residual"},
+    "swaps": {"count", "settled", "closed_pockets", "recovered_links", "relocated_points"},
     "certificate": {
         "disc",
         "holes",
@@ -97,6 +98,18 @@ def test_a_gap_is_reported_with_its_size_and_place(run):
     assert gap["points"] == len(result.evidence.bridges[0].points)
     distance = np.linalg.norm(points[result.rows][gap["at_vertex"], :2] - [0.1, 0.2])
     assert distance == pytest.approx(0.2, abs=0.15)
+
+
+def test_a_gap_that_stars_agree_round_is_a_pocket_that_was_closed(run):
+    _, result, report = run
+    assert result.evidence.meshed.first_map is None
+    assert report["swaps"]["closed_pockets"] == len(report["boundary"]["gaps"]) == 1
+
+
+def test_a_mesh_without_a_map_of_its_own_is_reported_with_the_system_of_its_parameters(run):
+    _, result, report = run
+    assert report["solve"] == report["solve_uv"]
+    assert report["solve"]["unknowns"] == len(result.rows) - len(result.loop)
 
 
 def test_a_report_names_every_loop_the_chosen_one_first(run):

@@ -165,7 +165,7 @@ def _interpolation(matrix: _Matrix) -> tuple[_Prolongation, int]:
     size = interpolate(
         matrix.indptr, matrix.indices, matrix.data, matrix.diagonal, strong, coarse, indptr, indices, data
     )
-    return _Prolongation(indptr, indices[:size].copy(), data[:size].copy()), int(count)
+    return _Prolongation(indptr, indices[:size], data[:size]), int(count)
 
 
 def _product(matrix: _Matrix, prolongation: _Prolongation, n_coarse: int) -> _Matrix:

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ._kernels.relocate import JOURNAL
 from .assemble import assemble
 from .boundary import Patchwork
 from .clock import StageClock
@@ -13,7 +14,7 @@ from .mesh import start_draft
 from .neighbors import Neighborhoods
 from .parameterize import Parameterization, parameterize
 from .recover import recover_links
-from .relocate import JOURNAL, relocate_in_place, suspect_points
+from .relocate import relocate_in_place, suspect_points
 from .reopen import parameterize_open
 from .solve import Solver
 from .swaps import Swapped, swap_in_place

@@ -201,7 +201,8 @@ def _with_rows(found: Neighborhoods, rows: Indices, by: Neighborhoods) -> Neighb
     if found.local is not None:
         local = np.empty((indptr[-1], 2))
         local[of_new], local[~of_new] = by.local, found.local[of_old]
-    is_open, width = np.where(is_new, by.is_open, found.is_open), np.where(is_new, by.width, found.width)
+    is_open = np.where(is_new, np.asarray(by.is_open), np.asarray(found.is_open))
+    width = np.where(is_new, np.asarray(by.width), np.asarray(found.width))
     return Neighborhoods(indptr, indices, local, is_open, width)
 
 

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ._check import check_loop, check_place, check_points
+from ._memory import check_room
 from .boundary import (
     BoundaryScores,
     Candidate,
@@ -115,7 +116,7 @@ def survey_scan(
     Raises
     ------
     InputError
-        If the points are no single patch, or the boundary is at fault.
+        If the points are no single patch or too many for the memory, or the boundary is at fault.
 
     Examples
     --------
@@ -128,6 +129,7 @@ def survey_scan(
     clock = clock or StageClock()
     with clock("prepare"):
         scan = check_points(points)
+        check_room(len(scan))
         cloud = prepare(scan)
         given = None if loop is None else check_loop(loop, len(scan))
         place = None if outer is None else check_place(outer)
