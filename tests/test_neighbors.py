@@ -68,7 +68,7 @@ def test_the_nearest_are_all_others_where_there_are_few():
 
 
 @settings(max_examples=30)
-@given(clouds(smallest=4), st.integers(1, 25), seeds)
+@given(clouds(smallest=8), st.integers(1, 25), seeds)
 def test_a_tree_finds_the_nearest_of_points_in_any_order_for_any_of_them(points, k, seed):
     rng = np.random.default_rng(seed)
     mixed = rng.permutation(points)

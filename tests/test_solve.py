@@ -137,6 +137,15 @@ def test_multigrid_needs_far_fewer_iterations_than_the_plain_method(patch, value
     assert max(levels.iterations) < min(plain.iterations) / 3
 
 
+def test_rows_of_fixed_unknowns_are_not_used(patch, values, general_matrix):
+    other = sp.lil_array(general_matrix)
+    other[patch.boundary] = 7.0
+    found, plain = (
+        solve_fixed(sp.csr_array(matrix), patch.boundary, values).values for matrix in (other, general_matrix)
+    )
+    assert np.array_equal(found, plain)
+
+
 def test_the_size_of_the_system_is_reported(patch, values, general_matrix):
     found = solve_fixed(general_matrix, patch.boundary, values)
     free = np.setdiff1d(np.arange(len(patch.points)), patch.boundary)

@@ -13,7 +13,7 @@ from pointchart.neighbors import nearest
 from pointchart.parameterize import parameterize
 from pointchart.shapes import tube
 from pointchart.stars import delaunay_star
-from pointchart.swaps import swap_to_delaunay
+from pointchart.swaps import swap_in_place, swap_to_delaunay
 from pointchart.triangulate import triangulate
 from pointchart.weights import mean_value, reciprocal_distance, shape_preserving
 
@@ -65,6 +65,32 @@ def test_any_triangulation_of_planar_points_ends_at_the_delaunay_triangulation(s
     assert (orientation_signs(shape.uv, swapped.triangles) == 1).all()
     assert swapped.is_settled
     assert swapped.n_swaps > 0
+
+
+@settings(max_examples=15)
+@given(planar_discs(smallest=40, largest=200), seeds, st.integers(1, 20))
+def test_swaps_begun_where_a_delaunay_triangulation_was_changed_restore_it(shape, seed, n_flips):
+    delaunay = swap_to_delaunay(shape.points, shape.triangles).triangles
+
+    def is_plane(flipped):
+        return (orientation_signs(shape.uv, flipped) == 1).all()
+
+    changed = flip_at_random(delaunay, is_plane, np.random.default_rng(seed), n_flips)
+    is_touched = np.zeros(len(shape.points), bool)
+    is_touched[changed[(changed != delaunay).any(axis=1)]] = True
+    edges = half_edges(changed, len(shape.points))
+    _, is_settled = swap_in_place(shape.points, edges.origins, edges.twins, is_touched=is_touched)
+    assert is_settled
+    assert edges_of(edges.origins.reshape(-1, 3)) == edges_of(delaunay)
+
+
+def test_where_no_point_is_touched_no_edge_is_swapped(disc_shape):
+    shape = disc_shape("relief")
+    mixed = flip_at_random(shape.triangles, lambda flipped: True, np.random.default_rng(0), 20)
+    edges = half_edges(mixed, len(shape.points))
+    nowhere = np.zeros(len(shape.points), bool)
+    assert swap_in_place(shape.points, edges.origins, edges.twins, is_touched=nowhere) == (0, True)
+    assert np.array_equal(edges.origins.reshape(-1, 3), mixed)
 
 
 @settings(max_examples=15)

@@ -1,6 +1,7 @@
 """The command ``pointchart``, and ``python -m pointchart``."""
 
 import gc
+import os
 import sys
 
 
@@ -10,10 +11,13 @@ def main() -> None:
     gc.set_threshold(100_000)
     try:
         from .cli import main as run
+        from .cli.aside import aside
 
-        run()
+        aside(run)
     except KeyboardInterrupt:
-        sys.exit(130)
+        # Not by way of Python's end, which waits for the thread that still computes.
+        sys.stderr.flush()
+        os._exit(130)
     finally:
         gc.freeze()
 

@@ -24,8 +24,8 @@ def check_room(n_points: int) -> None:
     free = free_bytes() if n_points > FEW else None
     if free is not None and need > free:
         raise InputError(
-            f"{n_points} points need about {need / 1e9:.1f} GB of memory, and {free / 1e9:.1f} GB are free; close other "
-            "programs, thin the scan or cut it into parts"
+            f"{n_points} points need about {need / 1e9:.1f} GB of memory, and {free / 1e9:.1f} GB are free; close "
+            "other programs, thin the scan or cut it into parts"
         )
 
 

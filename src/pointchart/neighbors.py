@@ -182,11 +182,8 @@ class BoxTree:
 
     Examples
     --------
-    >>> BoxTree(np.array([[0.0, 0, 0], [1, 0, 0], [3, 0, 0], [3, 1, 0]])).nearest(1)
-    array([[1],
-           [0],
-           [3],
-           [2]], dtype=int32)
+    >>> BoxTree(np.array([[0.0, 0, 0], [1, 0, 0], [3, 0, 0], [3, 1, 0]])).nearest(1).tolist()
+    [[1], [0], [3], [2]]
     """
 
     def __init__(self, points: Points) -> None:

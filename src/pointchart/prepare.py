@@ -60,8 +60,8 @@ def prepare(points: ArrayLike) -> Cloud:
     Examples
     --------
     >>> cloud = prepare([[8, 8, 0], [0, 0, 0], [8, 8, 0], [8, 0, 0], [0, 8, 0]])
-    >>> cloud.rows, cloud.places, cloud.n_repeated
-    (array([1, 3, 4, 0]), array([3, 0, 3, 1, 2], dtype=int32), 1)
+    >>> cloud.rows.tolist(), cloud.places.tolist(), cloud.n_repeated
+    ([1, 3, 4, 0], [3, 0, 3, 1, 2], 1)
     """
     scan = check_points(points)
     keys = morton_keys(scan)

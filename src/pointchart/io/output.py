@@ -9,6 +9,8 @@ from pathlib import Path
 from ..errors import FormatError, InputError
 from .source import AnyPath
 
+_temporaries: set[Path] = set()
+
 
 def check_output(path: AnyPath, *, suffixes: Sequence[str], inputs: Iterable[AnyPath] = ()) -> Path:
     """Check before a long run that its result can be written.
@@ -86,6 +88,7 @@ def replacing(path: AnyPath) -> Iterator[Path]:
     """
     target = _resolved(path)
     temporary = target.with_name(f".{target.stem}.{secrets.token_hex(4)}{target.suffix}")
+    _temporaries.add(temporary)
     try:
         yield temporary
         os.replace(temporary, target)
@@ -93,8 +96,19 @@ def replacing(path: AnyPath) -> Iterator[Path]:
         reason = error.strerror or str(error)
         raise FormatError(f"{path}: it cannot be written ({reason}); free the disk or choose another output") from error
     finally:
-        with suppress(OSError):
-            temporary.unlink(missing_ok=True)
+        _remove(temporary)
+
+
+def remove_temporaries() -> None:
+    """Remove what blocks of `replacing` have begun: for a process that ends in the middle of one."""
+    for temporary in list(_temporaries):
+        _remove(temporary)
+
+
+def _remove(temporary: Path) -> None:
+    with suppress(OSError):
+        temporary.unlink(missing_ok=True)
+    _temporaries.discard(temporary)
 
 
 def _resolved(path: AnyPath) -> Path:

@@ -1,0 +1,47 @@
+import subprocess
+import sys
+
+import pytest
+
+from pointchart.cli.aside import aside
+from pointchart.io.output import remove_temporaries, replacing
+
+# A call that computes for ten minutes without a look at signals, with a file half written.
+DEAF = """
+import ctypes, os, signal, threading, time
+from pointchart import cli
+from pointchart.__main__ import main
+from pointchart.io import replacing
+signal.signal(signal.SIGINT, signal.default_int_handler)
+def run():
+    with replacing("mesh.ply") as temporary:
+        temporary.write_text("half")
+        threading.Timer(0.1, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+        ctypes.CDLL(None).sleep(600)
+cli.main = run
+main()
+"""
+
+
+def test_ctrl_c_is_heard_while_a_kernel_computes_and_leaves_nothing_behind(tmp_path):
+    done = subprocess.run([sys.executable, "-c", DEAF], cwd=tmp_path, capture_output=True, text=True, timeout=120)
+    assert (done.returncode, done.stdout, done.stderr) == (130, "", "")
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("reason", [SystemExit(3), ValueError("no"), KeyboardInterrupt()])
+def test_what_the_run_raises_is_raised(reason):
+    def fail():
+        raise reason
+
+    with pytest.raises(type(reason)) as raised:
+        aside(fail)
+    assert raised.value is reason
+
+
+def test_temporary_files_of_a_block_can_be_removed_from_outside(tmp_path):
+    with pytest.raises(Exception, match="cannot be written"), replacing(tmp_path / "a.txt") as temporary:
+        temporary.write_text("half")
+        remove_temporaries()
+        assert not temporary.exists()
+    assert list(tmp_path.iterdir()) == []
