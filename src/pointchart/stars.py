@@ -1,5 +1,7 @@
 """Delaunay stars: the neighbours of each point in the Delaunay triangulation of its tangent plane (paper, method 3)."""
 
+from typing import NamedTuple
+
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -138,9 +140,22 @@ def delaunay_star(points: ArrayLike, around: Neighborhoods, *, planes: Neighborh
     return _stars(cloud, normals(cloud, planes or around), around)[0]
 
 
-def nearest_star(
-    points: ArrayLike, around: Neighborhoods, *, normal: Floats | None = None, local: bool = True
-) -> Neighborhoods:
+class Sides(NamedTuple):
+    """What the neighbours of each point say of a boundary.
+
+    Attributes
+    ----------
+    angle : (n,) float64
+        The largest angle free of neighbours in the tangent plane, in radians.
+    offset : (n,) float64
+        Distance of the neighbours' centroid over their mean distance.
+    """
+
+    angle: Floats
+    offset: Floats
+
+
+def nearest_star(points: ArrayLike, around: Neighborhoods) -> Neighborhoods:
     """Find the Delaunay neighbours of each point among its nearest, and among more where its star asks for it.
 
     A star is the true one if no point beyond the candidates can lie in one of its circles: if its largest
@@ -154,10 +169,6 @@ def nearest_star(
         Distinct points.
     around : Neighborhoods
         The same number of nearest points of each, nearest first.
-    normal : (n, 3) array, optional
-        Of the planes; fitted, if not given.
-    local : bool
-        Whether positions in the planes are kept.
 
     Returns
     -------
@@ -172,20 +183,42 @@ def nearest_star(
     >>> sorted(nearest_star(tracks, near).indices[nearest_star(tracks, near).rows == 17].tolist())
     [5, 16, 18, 29]
     """
+    return star_and_sides(points, around)[0]
+
+
+def star_and_sides(
+    points: ArrayLike, around: Neighborhoods, *, normal: Floats | None = None, local: bool = True
+) -> tuple[Neighborhoods, Sides]:
+    """Find stars as `nearest_star` does, and what the nearest points say of a boundary.
+
+    Parameters
+    ----------
+    points, around
+        As for `nearest_star`.
+    normal : (n, 3) array, optional
+        Of the planes; fitted, if not given.
+    local : bool
+        Whether positions in the planes are kept.
+
+    Returns
+    -------
+    Neighborhoods
+    Sides
+    """
     cloud = check_points(points)
     check_neighbors(around.indices, around.n_points, len(cloud))
     normal = normals(cloud, around, fading=FADING) if normal is None else normal
-    found, diameter = _stars(cloud, normal, around, local=local)
+    found, diameter, sides = _stars(cloud, normal, around, local=local)
     reach = np.linalg.norm(cloud[around.indices[around.indptr[1:] - 1]] - cloud, axis=1)
     short = np.flatnonzero(~np.asarray(found.is_open) & (diameter > reach))
     wide = min(WIDER * int(around.sizes.max()), len(cloud) - 1)
     if len(short) == 0 or wide <= around.sizes.max():
-        return found
+        return found, sides
     sizes = np.zeros(len(cloud), np.int64)
     sizes[short] = wide
     candidates = BoxTree(cloud).nearest(wide, short)
     widened = Neighborhoods(np.concatenate([[0], np.cumsum(sizes)]), candidates.ravel())
-    return _with_rows(found, short, _stars(cloud, normal, widened, local=local)[0])
+    return _with_rows(found, short, _stars(cloud, normal, widened, local=local)[0]), sides
 
 
 def _with_rows(found: Neighborhoods, rows: Indices, by: Neighborhoods) -> Neighborhoods:
@@ -216,21 +249,23 @@ def _planes(cloud: Points, around: Neighborhoods, fading: float) -> tuple[Floats
     return normal, offset
 
 
-def _stars(cloud: Points, normal: Floats, around: Neighborhoods, *, local: bool = True) -> tuple[Neighborhoods, Floats]:
+def _stars(
+    cloud: Points, normal: Floats, around: Neighborhoods, *, local: bool = True
+) -> tuple[Neighborhoods, Floats, Sides]:
     """Find all stars; return the diameter of the largest circle of each, too, open or not."""
     n = len(cloud)
     count, is_open, diameter = np.empty(n, np.int64), np.empty(n, np.bool_), np.empty(n)
+    sides = Sides(np.empty(n), np.empty(n))
     parts: dict[int, tuple[Indices, Floats]] = {}
 
     def find(first: int, last: int) -> None:
         room = int(around.indptr[last] - around.indptr[first])
         star, places = np.empty(room, around.indices.dtype), np.empty((room, 2))
-        size = stars_kernel(
-            cloud, normal, around.indptr, around.indices, STEEPEST, first, last, star, places, count, is_open, diameter
-        )
+        where = cloud, normal, around.indptr, around.indices, STEEPEST, first, last
+        size = stars_kernel(*where, star, places, count, is_open, diameter, *sides)
         parts[first] = star[:size].copy(), places[: size if local else 0].copy()
 
     over_ranges(find, n)
     indices, places = (np.concatenate([parts[first][k] for first in sorted(parts)]) for k in range(2))
     indptr, width = np.concatenate([[0], np.cumsum(count)]), np.where(is_open, np.inf, 0.5 * diameter)
-    return Neighborhoods(indptr, indices, places if local else None, is_open, width), diameter
+    return Neighborhoods(indptr, indices, places if local else None, is_open, width), diameter, sides

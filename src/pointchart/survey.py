@@ -74,7 +74,7 @@ class Survey:
         if self.found is not None:
             return self.found.scores
         near, agreed = self.vicinity, self._agreed.triangles
-        return boundary_scores(near.smoothed, near.around, near.star, agreed, near.spacing, normal=near.normal)
+        return boundary_scores(near.smoothed, near.around, near.star, agreed, near.spacing, sides=near.sides)
 
     @property
     def surface(self) -> Patchwork:

@@ -7,7 +7,7 @@ from numpy.typing import ArrayLike
 from ._check import check_points
 from .neighbors import BoxTree, Neighborhoods, rectangular
 from .neighbors import spacing as local_spacing
-from .stars import FADING, break_ties, nearest_star, normals, smooth
+from .stars import FADING, Sides, break_ties, normals, smooth, star_and_sides
 from .typing import Floats, Points
 
 NEAREST = 20
@@ -25,18 +25,18 @@ class Vicinity:
         Local spacing, in the unit of the points.
     smoothed : (n, 3) float64
         The points with less noise across the surface.
-    normal : (n, 3) float64
-        Of the planes of the smoothed points; of either sign.
     star : Neighborhoods
         Delaunay stars of the smoothed points, in general position: neighbouring stars can agree on grids too. Without
         positions in the planes.
+    sides : Sides
+        What the nearest points say of a boundary.
     """
 
     around: Neighborhoods
     spacing: Floats
     smoothed: Points
-    normal: Floats
     star: Neighborhoods
+    sides: Sides
 
 
 def explore(points: ArrayLike) -> Vicinity:
@@ -63,5 +63,5 @@ def explore(points: ArrayLike) -> Vicinity:
     spacing = local_spacing(cloud, around=around)
     smoothed = smooth(cloud, around)
     normal = normals(smoothed, around, fading=FADING)
-    star = nearest_star(break_ties(smoothed, spacing), around, normal=normal, local=False)
-    return Vicinity(around, spacing, smoothed, normal, star)
+    star, sides = star_and_sides(break_ties(smoothed, spacing), around, normal=normal, local=False)
+    return Vicinity(around, spacing, smoothed, star, sides)

@@ -76,6 +76,32 @@ def project(points, normal, i, neighbors, steepest, name, x, y, angle):
 
 
 @njit(cache=True, nogil=True)
+def measure_sides(x, y, n):
+    """Return the largest angle from one of n sorted neighbours to the next, and how far their centroid lies off.
+
+    The latter is over their mean distance.
+    """
+    if n == 0:
+        return 2.0 * math.pi, 1.0
+    widest, best, after, mx, my, mr = -1.0, 0, 0, 0.0, 0.0, 0.0
+    radius = math.sqrt(x[0] * x[0] + y[0] * y[0])
+    for k in range(n):
+        m = k + 1 if k + 1 < n else 0
+        mx, my, mr = mx + x[k], my + y[k], mr + radius
+        other = math.sqrt(x[m] * x[m] + y[m] * y[m])
+        cosine = (x[k] * x[m] + y[k] * y[m]) / (radius * other)
+        # Grows with the angle, from 0 to 4.
+        measure = 1.0 - cosine if x[k] * y[m] >= y[k] * x[m] else 3.0 + cosine
+        if measure > widest:
+            widest, best, after = measure, k, m
+        radius = other
+    angle = math.atan2(x[best] * y[after] - y[best] * x[after], x[best] * x[after] + y[best] * y[after])
+    if angle < 0.0 or n == 1:
+        angle += 2.0 * math.pi
+    return angle, math.sqrt(mx * mx + my * my) / mr
+
+
+@njit(cache=True, nogil=True)
 def gap_end(x, y, n):
     """Return the neighbour behind a gap of at least pi, anticlockwise, or -1 where there is none."""
     if n < 3:
@@ -121,21 +147,24 @@ def circumdiameter(ax, ay, bx, by):
 
 
 @njit(cache=True, nogil=True)
-def delaunay_stars(points, normals, indptr, indices, steepest, first, last, star, local, count, is_open, diameter):
+def delaunay_stars(
+    points, normals, indptr, indices, steepest, first, last, star, local, count, is_open, diameter, angle, offset
+):
     """Find the Delaunay neighbours of points first..last among their candidates; return how many there are in all.
 
     Stars follow each other: names in `star`, planar positions in `local`, anticlockwise, `count[i]` of them for point
-    i. `diameter` is that of its largest circumcircle.
+    i. `diameter` is that of its largest circumcircle; `angle` and `offset` tell of a boundary (see `measure_sides`).
     """
     most = 1
     for i in range(first, last):
         most = max(most, indptr[i + 1] - indptr[i])
     name, stack = np.empty(most, np.int64), np.empty(most + 2, np.int64)
-    x, y, angle, p, q = np.empty(most), np.empty(most), np.empty(most), np.empty(most), np.empty(most)
+    x, y, turns, p, q = np.empty(most), np.empty(most), np.empty(most), np.empty(most), np.empty(most)
     total = 0
     for i in range(first, last):
         row = indices[indptr[i] : indptr[i + 1]]
-        n = project(points, normals[i], i, row, steepest, name, x, y, angle)
+        n = project(points, normals[i], i, row, steepest, name, x, y, turns)
+        angle[i], offset[i] = measure_sides(x, y, n)
         start = gap_end(x, y, n)
         is_open[i] = start >= 0
         if not is_open[i]:

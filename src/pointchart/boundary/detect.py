@@ -11,7 +11,7 @@ from .._kernels.sides import survey_sides
 from .._parallel import over_ranges
 from ..errors import InputError
 from ..neighbors import Neighborhoods
-from ..stars import FADING, STEEPEST, normals
+from ..stars import FADING, STEEPEST, Sides, normals
 from ..typing import Floats, Mask, Points, Triangles
 
 WIDE_STAR = 1.0  # circumradius of a star in spacings where the doubt begins: that of an even sampling is 0.6
@@ -56,7 +56,7 @@ def boundary_scores(
     agreed: Triangles,
     spacing: Floats,
     *,
-    normal: Floats | None = None,
+    sides: Sides | None = None,
 ) -> BoundaryScores:
     """Score every point by what its neighbours, its star and its triangles say of a boundary.
 
@@ -75,8 +75,8 @@ def boundary_scores(
         The triangles on which the stars agree.
     spacing : (n,) array
         Local spacing.
-    normal : (n, 3) array, optional
-        Of the tangent planes; fitted, if not given.
+    sides : Sides, optional
+        If they are known.
 
     Returns
     -------
@@ -104,7 +104,7 @@ def boundary_scores(
     array([False,  True,  True,  True,  True])
     """
     cloud = check_points(points)
-    angle, offset = _sides(cloud, around, normal)
+    angle, offset = sides or _sides(cloud, around)
     even = 2.0 * np.pi / np.maximum(around.sizes, 3)
     free = 1.0 - corner_angles(cloud, agreed) / (2.0 * np.pi)
     return BoundaryScores(
@@ -142,7 +142,7 @@ def angular_gaps(points: ArrayLike, around: Neighborhoods) -> Floats:
     >>> np.rad2deg(angular_gaps(plus, nearest(plus, 4))[:2]).round(6)
     array([ 90., 270.])
     """
-    return _sides(check_points(points), around)[0]
+    return _sides(check_points(points), around).angle
 
 
 def hull_test(star: Neighborhoods) -> Mask:
@@ -193,18 +193,14 @@ def corner_angles(points: Points, triangles: Triangles) -> Floats:
     return total
 
 
-def _sides(cloud: Points, around: Neighborhoods, normal: Floats | None = None) -> tuple[Floats, Floats]:
-    """Return the largest free angle, and the distance of the neighbours' centroid in their mean distances."""
+def _sides(cloud: Points, around: Neighborhoods) -> Sides:
     check_neighbors(around.indices, around.n_points, len(cloud))
-    normal = normals(cloud, around, fading=FADING) if normal is None else normal
-    angle, offset = np.empty(len(cloud)), np.empty(len(cloud))
+    normal, sides = normals(cloud, around, fading=FADING), Sides(np.empty(len(cloud)), np.empty(len(cloud)))
     over_ranges(
-        lambda first, last: survey_sides(
-            cloud, normal, around.indptr, around.indices, STEEPEST, first, last, angle, offset
-        ),
+        lambda first, last: survey_sides(cloud, normal, around.indptr, around.indices, STEEPEST, first, last, *sides),
         len(cloud),
     )
-    return angle, offset
+    return sides
 
 
 def _is_open(star: Neighborhoods) -> Mask:

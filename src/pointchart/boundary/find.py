@@ -101,7 +101,7 @@ def find_boundary(points: ArrayLike, *, vicinity: Vicinity | None = None) -> Fou
     near = explore(cloud) if vicinity is None else vicinity
     check_one_piece(cloud, near.around, near.spacing)
     agreed = agreed_patchwork(near.smoothed, near.star, near.spacing)
-    scores = boundary_scores(near.smoothed, near.around, near.star, agreed.triangles, near.spacing, normal=near.normal)
+    scores = boundary_scores(near.smoothed, near.around, near.star, agreed.triangles, near.spacing, sides=near.sides)
     surface = tightened(near.smoothed, agreed, scores.is_boundary)
     found = [measure(cloud, loop, scores.is_boundary) for loop in rims(surface)]
     scale = float(np.median(near.spacing))
