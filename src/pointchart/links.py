@@ -4,7 +4,6 @@ from dataclasses import dataclass
 
 import numpy as np
 import scipy.sparse as sp
-from scipy.spatial import KDTree
 
 from ._kernels.links import agreement
 from ._parallel import over_ranges
@@ -105,6 +104,8 @@ def tie_down(points: Points, links: Links, loop: Loop) -> Links:
     hangs = cut_points(graph, loop) != -1
     if not hangs.any():
         return links
+    from scipy.spatial import KDTree
+
     loose, rest = np.flatnonzero(hangs), np.flatnonzero(~hangs)
     _, nearest = KDTree(points[rest]).query(points[loose], k=min(TIES, len(rest)))
     rows, columns = np.repeat(loose, nearest.shape[1]), rest[nearest.ravel()]

@@ -1,9 +1,10 @@
 """The multigrid solver: linear in time and memory."""
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 import scipy.sparse as sp
+from numpy.typing import NDArray
 
 from ._kernels.coarsen import (
     choose_coarse,
@@ -21,8 +22,10 @@ from .errors import SolveError
 from .typing import Floats, Indices
 
 COARSEST = 200  # unknowns that are solved for directly
+LARGEST = 3000  # the same, where coarsening comes to an end before, as on many parts
 ROOM = 4  # times the entries of the first level; all levels have about 1.6 times as many
 TOLERANCE = 1e-12
+SLACK = 10.0  # of the true residual over the tolerance: that of the iteration drifts from it
 MOST_ITERATIONS = 200
 
 
@@ -62,6 +65,8 @@ def multigrid(
     array([2., 2.])
     """
     n, d = right.shape
+    if d == 0:
+        return np.zeros((n, 0)), ()
     levels = _levels(left)
     counts: list[int] = []
     solution = np.zeros((n, d)) if start is None else np.array(start, dtype=np.float64)
@@ -72,7 +77,8 @@ def multigrid(
         found = bicgstab_pair(left.indptr, left.indices, left.data, levels, known, x, tolerance, MOST_ITERATIONS)
         counts += found[: d - k].tolist()
         solution[:, pair] = x
-    if min(counts) < 0:
+    missed = np.linalg.norm(right - left @ solution, axis=0) > SLACK * tolerance * np.linalg.norm(right, axis=0)
+    if min(counts) < 0 or missed.any():
         raise SolveError(
             f"multigrid did not reach a relative residual of {tolerance:g} in {MOST_ITERATIONS} iterations "
             f"({n} unknowns); use the direct solver"
@@ -112,6 +118,7 @@ def _levels(left: sp.csr_array) -> Levels:
     begin = p_begin = 0
     while True:
         end = begin + len(matrix.data)
+        indices, data = _with_room(indices, begin, end), _with_room(data, begin, end)
         indices[begin:end], data[begin:end] = matrix.indices, matrix.data
         is_last = len(matrix.diagonal) <= COARSEST
         prolongation, n_coarse = (None, 0) if is_last else _interpolation(matrix)
@@ -119,6 +126,7 @@ def _levels(left: sp.csr_array) -> Levels:
         p_indptr = np.full(len(matrix.indptr), p_begin)
         if prolongation is not None and not is_last:
             p_end = p_begin + len(prolongation.data)
+            p_indices, p_data = _with_room(p_indices, p_begin, p_end), _with_room(p_data, p_begin, p_end)
             p_indices[p_begin:p_end], p_data[p_begin:p_end] = prolongation.indices, prolongation.data
             p_indptr, p_begin = prolongation.indptr + p_begin, p_end
         light = _Matrix(matrix.indptr + begin, matrix.middle + begin, indices[:0], data[:0], matrix.diagonal)
@@ -128,6 +136,10 @@ def _levels(left: sp.csr_array) -> Levels:
             break
         matrix = _product(matrix, prolongation, n_coarse)
     sizes = np.array([len(piece.diagonal) for piece, _ in pieces])
+    if sizes[-1] > LARGEST:
+        raise SolveError(
+            f"multigrid found no coarse system for {n} unknowns, as if they were in many parts; use the direct solver"
+        )
     return Levels(
         sizes=sizes,
         places=np.concatenate([[0], np.cumsum(sizes)]),
@@ -140,12 +152,14 @@ def _levels(left: sp.csr_array) -> Levels:
         p_indptr=np.concatenate([p_indptr for _, p_indptr in pieces]),
         p_indices=p_indices,
         p_data=p_data,
-        coarsest=np.linalg.inv(_dense(matrix)),
+        coarsest=_inverse(matrix),
     )
 
 
 def _split(left: sp.csr_array) -> _Matrix:
     n = left.shape[0]
+    if not (left.diagonal() > 0.0).all():
+        raise SolveError("multigrid needs a matrix with a positive diagonal; use the direct solver")
     matrix = _Matrix(
         np.empty(n + 1, np.int64), np.empty(n, np.int64), np.empty(left.nnz, np.int32), np.empty(left.nnz), np.empty(n)
     )
@@ -191,7 +205,19 @@ def _product(matrix: _Matrix, prolongation: _Prolongation, n_coarse: int) -> _Ma
     return _Matrix(indptr, indptr[:-1] + middle, indices, data, diagonal)
 
 
-def _dense(matrix: _Matrix) -> Floats:
+def _with_room(array: NDArray[Any], used: int, needed: int) -> NDArray[Any]:
+    """Return an array with room for `needed` entries, the first `used` kept."""
+    if needed <= len(array):
+        return array
+    larger = np.empty(2 * needed, array.dtype)
+    larger[:used] = array[:used]
+    return larger
+
+
+def _inverse(matrix: _Matrix) -> Floats:
     n = len(matrix.diagonal)
     dense = sp.csr_array((matrix.data, matrix.indices, matrix.indptr), shape=(n, n)).toarray()
-    return np.asarray(dense + np.diag(matrix.diagonal))
+    try:
+        return np.asarray(np.linalg.inv(dense + np.diag(matrix.diagonal)))
+    except np.linalg.LinAlgError as reason:
+        raise SolveError(f"the matrix is singular ({reason}); some unknowns hang on no fixed one") from reason

@@ -1,10 +1,10 @@
 """Neighbourhoods of points: balls and the nearest (paper, section 4)."""
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.spatial import cKDTree
 
 from ._check import check_neighbors, check_points
 from ._kernels.nearest import LEAF, bound_boxes, find_nearest, middle_distances
@@ -12,6 +12,9 @@ from ._parallel import over_ranges
 from .errors import InputError
 from .morton import morton_order
 from .typing import Floats, Indices, Mask, Points
+
+if TYPE_CHECKING:  # what a short run does not need is imported where it is used
+    from scipy.spatial import cKDTree
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -105,6 +108,8 @@ def ball(points: ArrayLike, radius: float | Floats) -> Neighborhoods:
         raise InputError(
             f"the radius is {radii.min():g}; it has to be positive, some 2 to 4 times the spacing of the points"
         )
+    from scipy.spatial import cKDTree
+
     tree = cKDTree(cloud)
     counts = np.empty(len(cloud), np.int64)
 
@@ -208,7 +213,7 @@ class BoxTree:
         return found
 
 
-def search(tree: cKDTree, points: Floats, k: int) -> tuple[Floats, Indices]:
+def search(tree: "cKDTree", points: Floats, k: int) -> tuple[Floats, Indices]:
     """Find the `k` nearest points of a tree on all cores.
 
     The tree's own threads outlive an interrupt and then read freed memory, so the threads are ours.

@@ -1,7 +1,6 @@
 """Measures of meshes and maps, one function each."""
 
 import numpy as np
-from scipy.spatial import cKDTree
 
 from .mesh import HalfEdges
 from .neighbors import search
@@ -246,4 +245,6 @@ def least_distance(uv: UV) -> float:
     >>> least_distance(np.array([[0.0, 0.0], [3.0, 0.0], [3.0, 1.0]]))
     1.0
     """
+    from scipy.spatial import cKDTree
+
     return float(search(cKDTree(uv), uv, 2)[0][:, 1].min())

@@ -186,17 +186,13 @@ def nearest_star(points: ArrayLike, around: Neighborhoods) -> Neighborhoods:
     return star_and_sides(points, around)[0]
 
 
-def star_and_sides(
-    points: ArrayLike, around: Neighborhoods, *, normal: Floats | None = None, local: bool = True
-) -> tuple[Neighborhoods, Sides]:
+def star_and_sides(points: ArrayLike, around: Neighborhoods, *, local: bool = True) -> tuple[Neighborhoods, Sides]:
     """Find stars as `nearest_star` does, and what the nearest points say of a boundary.
 
     Parameters
     ----------
     points, around
         As for `nearest_star`.
-    normal : (n, 3) array, optional
-        Of the planes; fitted, if not given.
     local : bool
         Whether positions in the planes are kept.
 
@@ -207,7 +203,7 @@ def star_and_sides(
     """
     cloud = check_points(points)
     check_neighbors(around.indices, around.n_points, len(cloud))
-    normal = normals(cloud, around, fading=FADING) if normal is None else normal
+    normal = normals(cloud, around, fading=FADING)
     found, diameter, sides = _stars(cloud, normal, around, local=local)
     reach = np.linalg.norm(cloud[around.indices[around.indptr[1:] - 1]] - cloud, axis=1)
     short = np.flatnonzero(~np.asarray(found.is_open) & (diameter > reach))

@@ -3,7 +3,6 @@
 import numpy as np
 import startinpy
 from numpy.typing import ArrayLike
-from scipy.spatial import cKDTree
 
 from ._check import check_loop
 from ._kernels.peel import peel
@@ -96,6 +95,8 @@ def separate(uv: UV, loop: Loop) -> UV:
     doubled = coinciding(uv)
     if len(doubled) == 0:
         return uv
+    from scipy.spatial import cKDTree
+
     distinct, group = np.unique(uv, axis=0, return_inverse=True)
     room = cKDTree(distinct).query(distinct, k=2)[0][:, 1][group.ravel()[doubled]]
     inward = uv[loop].mean(axis=0) - uv[doubled]

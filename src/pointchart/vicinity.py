@@ -7,7 +7,7 @@ from numpy.typing import ArrayLike
 from ._check import check_points
 from .neighbors import BoxTree, Neighborhoods, rectangular
 from .neighbors import spacing as local_spacing
-from .stars import FADING, Sides, break_ties, normals, smooth, star_and_sides
+from .stars import Sides, break_ties, smooth, star_and_sides
 from .typing import Floats, Points
 
 NEAREST = 20
@@ -62,6 +62,5 @@ def explore(points: ArrayLike) -> Vicinity:
     around = rectangular(BoxTree(cloud).nearest(NEAREST))
     spacing = local_spacing(cloud, around=around)
     smoothed = smooth(cloud, around)
-    normal = normals(smoothed, around, fading=FADING)
-    star, sides = star_and_sides(break_ties(smoothed, spacing), around, normal=normal, local=False)
+    star, sides = star_and_sides(break_ties(smoothed, spacing), around, local=False)
     return Vicinity(around, spacing, smoothed, star, sides)

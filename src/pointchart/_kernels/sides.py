@@ -1,6 +1,5 @@
 """What the neighbours of a point say of a boundary: the angle they leave free, and their centroid."""
 
-
 import numpy as np
 from numba import njit
 

@@ -1,7 +1,6 @@
 """Whether a given boundary is in order."""
 
 import numpy as np
-from scipy.spatial import cKDTree
 
 from ..errors import InputError
 from ..neighbors import search
@@ -40,6 +39,8 @@ def check_order(points: Points, loop: Loop) -> None:
     a, b = loop, np.roll(loop, -1)
     count = min(NEARBY_STEPS, len(loop))
     place = np.arange(len(loop))
+    from scipy.spatial import cKDTree
+
     other = search(cKDTree(points[a]), points[a], count)[1]
     c, d = a[other], b[other]
     apart = np.linalg.norm(points[a][:, None] - points[c], axis=2) + np.linalg.norm(

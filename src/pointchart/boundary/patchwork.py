@@ -9,7 +9,6 @@ from .._check import check_points
 from .._kernels.rims import (
     FULL,
     JOINED,
-    TWISTED,
     close_up,
     collect_triangles,
     count_at_edges,
@@ -87,15 +86,18 @@ class Patchwork:
         Returns
         -------
         Patchwork
-            Without spare triangles.
+            Without spare triangles, and without those that no orientation fits.
 
         Examples
         --------
-        >>> fan = patchwork([[0, 1, 4], [1, 2, 4]], 5)
-        >>> more = replace(fan, spare=np.array([[2, 3, 4]], np.int32), spare_edges=np.array([[9, 9, 9]], np.int32))
-        >>> len(more.extended(np.array([0, 1, 2, 3, 4])).spare)
-        0
+        >>> whole = patchwork([[0, 1, 4], [1, 2, 4], [2, 3, 4]], 5)
+        >>> less = whole.without(np.array([False, True, False]))
+        >>> spared = replace(less, spare=whole.triangles[1:2], spare_edges=whole.edge_of[1:2])
+        >>> spared.extended(np.array([0, 1, 2, 3, 4])).triangles.tolist()
+        [[0, 1, 4], [2, 3, 4], [1, 2, 4]]
         """
+        if (self.part < 0).any():  # no spare triangle may hang on one that has no orientation
+            return self.without(self.part < 0).extended(loop)
         m, k = len(self.triangles), len(self.spare)
         bare = replace(self, spare=self.spare[:0], spare_edges=self.spare_edges[:0])
         if k == 0:
@@ -103,17 +105,15 @@ class Patchwork:
         ahead = np.full(self.n_points, -1, np.int32)
         ahead[loop] = np.roll(loop, -1)
         sides, (a, b) = self.sides.copy(), self.ends.T
-        is_boundary = ((ahead[a] == b) | (ahead[b] == a)) & (sides[:, 1] < 0)
+        is_boundary = ((ahead[a] == b) | (ahead[b] == a)) & (sides[:, 0] >= 0) & (sides[:, 1] < 0)
         sides[is_boundary, 1] = m + k
         triangles = np.concatenate([self.triangles, self.spare])
         edge_of = np.concatenate([self.edge_of, self.spare_edges])
         # Triangles of a part hang on its first one.
         _, first, place = np.unique(self.part, return_index=True, return_inverse=True)
-        is_twisted = self.part < 0
         parent = np.arange(m + k, dtype=np.int32)
-        parent[:m][~is_twisted] = first[place][~is_twisted]
+        parent[:m] = first[place]
         outcome = np.full(m + k, JOINED, np.int8)
-        outcome[:m][is_twisted] = TWISTED
         is_odd, may_twist = np.zeros(m + k, np.bool_), np.zeros(m + k, np.bool_)
         keep_manifold(triangles, np.arange(m, m + k), may_twist, edge_of, sides, parent, is_odd, outcome)
         sides[is_boundary, 1] = -1

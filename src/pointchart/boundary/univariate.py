@@ -3,7 +3,6 @@
 import numpy as np
 import scipy.sparse as sp
 from numpy.typing import ArrayLike
-from scipy.spatial import cKDTree
 
 from .._check import check_place, check_points
 from ..errors import InputError
@@ -84,6 +83,8 @@ def _order_by_plane(cloud: Points, chosen: Indices, height: Floats, k: int) -> L
 def _order_half(cloud: Points, half: Indices, height: Floats, k: int) -> Loop:
     if len(half) < 3:
         raise InputError(f"the plane leaves {len(half)} boundary points on one side; each half needs at least 3")
+    from scipy.spatial import cKDTree
+
     distance, found = cKDTree(cloud[half]).query(cloud[half], k=np.arange(2, min(k, len(half) - 1) + 2))
     ends = _end_points(cloud[half], np.abs(height), reach=2.0 * float(distance[:, 0].max()))
     rows = np.repeat(np.arange(len(half)), found.shape[1])
