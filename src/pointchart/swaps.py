@@ -83,16 +83,15 @@ def swap_in_place(
     is_settled : bool
     """
     turns, stack = np.zeros(len(corners) // 3, np.int32), np.empty_like(corners)
-    n_swaps, is_done = 0, False
-    while not is_done:
-        asked = twins > np.arange(len(twins), dtype=twins.dtype)
-        if is_touched is not None:
-            asked &= np.repeat(is_touched[corners].reshape(-1, 3).any(axis=1), 3)
-        begin = np.flatnonzero(asked)
+    asked = twins > np.arange(len(twins), dtype=twins.dtype)
+    if is_touched is not None:
+        asked &= np.repeat(is_touched[corners].reshape(-1, 3).any(axis=1), 3)
+    n_swaps, made = 0, 1
+    while made > 0 and asked.any():
+        begin, barred = np.flatnonzero(asked), np.zeros(len(corners), np.bool_)
         stack[: len(begin)] = begin
-        made, barred = delaunay_swaps(points, corners, twins, stack, len(begin), asked, turns)
-        n_swaps, is_touched = n_swaps + int(made), None
-        is_done = made == 0 or barred == 0
+        made = delaunay_swaps(points, corners, twins, stack, len(begin), asked, turns, barred)
+        n_swaps, asked = n_swaps + int(made), barred
     return n_swaps, bool(np.all(turns < MOST_SWAPS_OF_A_TRIANGLE))
 
 

@@ -78,14 +78,14 @@ def swap(corners, twin, h):
 
 
 @njit(cache=True, nogil=True)
-def delaunay_swaps(points, corners, twin, stack, size, queued, swapped):
-    """Swap edges until all are Delaunay in space; return how many swaps that took, and how many edges were left alone.
+def delaunay_swaps(points, corners, twin, stack, size, queued, swapped, barred):
+    """Swap edges until all are Delaunay in space; return how many swaps that took.
 
-    It begins with the first `size` half-edges of the stack, which `queued` marks. An edge is left alone when its
-    replacement is there already, which a later swap may change. For points in a plane the swaps end by Lawson's
-    theorem; in space no theorem is known, so no triangle takes the lead in more than a fixed number of them.
+    It begins with the first `size` half-edges of the stack, which `queued` marks. An edge is left alone, and marked in
+    `barred`, when its replacement is there already, which a later swap may change. For points in a plane the swaps end
+    by Lawson's theorem; in space no theorem is known, so no triangle takes the lead in more than a fixed number.
     """
-    total = barred = 0
+    total = 0
     while size > 0:
         size -= 1
         h = np.int64(stack[size])
@@ -97,7 +97,7 @@ def delaunay_swaps(points, corners, twin, stack, size, queued, swapped):
         if angle_sum_measure(points, c, d, a, b) <= angle_sum_measure(points, a, b, c, d) + LEAST_GAIN:
             continue
         if are_joined(corners, twin, preceding(h), d):
-            barred += 1
+            barred[h] = True
             continue
         swap(corners, twin, h)
         total += 1
@@ -111,4 +111,4 @@ def delaunay_swaps(points, corners, twin, stack, size, queued, swapped):
                 queued[edge] = True
                 stack[size] = edge
                 size += 1
-    return total, barred
+    return total
