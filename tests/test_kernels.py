@@ -8,7 +8,7 @@ import scipy.sparse as sp
 
 from pointchart import _kernels
 from pointchart._exact import orientation_signs
-from pointchart._kernels import assemble, coarsen, constrain, drafts, planes, recover, relocate, rims, sides
+from pointchart._kernels import assemble, coarsen, constrain, drafts, planes, recover, relocate, rims, sides, stars
 from pointchart._kernels import half_edges as half_edge_kernels
 from pointchart._kernels import nearest as trees
 from pointchart.boundary import patchwork
@@ -33,6 +33,7 @@ FIRST = np.zeros(N, np.int64)
 FIRST[EDGES.origins] = np.arange(len(EDGES.origins))
 INNER = int(np.flatnonzero(EDGES.twins >= 0)[0])
 ROUND = np.arange(6) + 0.3
+TURNS = np.array([stars.pseudo_angle.py_func(np.cos(t), np.sin(t)) for t in ROUND])
 RING_X, RING_Y = np.cos(ROUND) * [1, 2, 1, 1.5, 1, 1], np.sin(ROUND) * [1, 2, 1, 1.5, 1, 1]
 TREE = np.array([0, 1, 2, 3, 4]), np.array([-9999, 0, 0, 1, 1])
 GRAPH = np.array([0, 0, 1, 2, 4, 5]), np.array([0, 0, 1, 2, 1])
@@ -685,10 +686,10 @@ CASES = {
         np.zeros(N),
         np.zeros(N),
     ),
-    "stars.measure_sides": lambda: (2.0 * np.cos(ROUND), 2.0 * np.sin(ROUND), 6),
-    "stars.measure_sides of more than half a turn": lambda: (np.cos(ROUND), np.sin(ROUND), 3),
-    "stars.measure_sides of one neighbour": lambda: (np.cos(ROUND), np.sin(ROUND), 1),
-    "stars.measure_sides of none": lambda: (np.cos(ROUND), np.sin(ROUND), 0),
+    "stars.measure_sides": lambda: (2.0 * np.cos(ROUND), 2.0 * np.sin(ROUND), TURNS, 6),
+    "stars.measure_sides of more than half a turn": lambda: (np.cos(ROUND), np.sin(ROUND), TURNS, 3),
+    "stars.measure_sides of one neighbour": lambda: (np.cos(ROUND), np.sin(ROUND), TURNS, 1),
+    "stars.measure_sides of none": lambda: (np.cos(ROUND), np.sin(ROUND), TURNS, 0),
     "stars.pseudo_angle": lambda: (-0.3, -2.0),
     "stars.turns_left": lambda: (0.0, 0.0, 1.0, 0.0, 2.0, 0.5),
     "stars.is_one_direction": lambda: (1.0, 2.0, 3.0, 6.0),
@@ -703,6 +704,7 @@ CASES = {
         np.zeros(9),
         np.zeros(9),
     ),
+    "stars.drop_hidden": lambda: (ints(4), np.array([1.0, 2, 0, 3]), np.array([0.0, 0, 1, 0]), 4),
     "stars.gap_end": lambda: (RING_X[:3], RING_Y[:3], 3),
     "stars.hull_of_inverses": lambda: (RING_X, RING_Y, 6, 1, False, np.zeros(6), np.zeros(6), ints(8)),
     "stars.circumdiameter": lambda: (1.0, 0.2, -0.3, 1.0),

@@ -9,6 +9,7 @@ from .half_edges import cross_at, following, preceding
 from .swaps import are_joined, link
 
 ON_BOUNDARY = 1 << 30  # rank of a fan on the boundary asked for, over that of any size
+FEW_BAD, MOST_BAD = 6, 0.25  # ears that may fold back: as many, or a share of the rim
 MOST_LOOKED_AT = 4000  # points of a rim up to which each ear is looked at for those it holds
 
 
@@ -205,7 +206,7 @@ def cap(points, corners, twin, loop, first_free):
 
     New triangles go to places `first_free` and on; returns the next free place, or -1 if all bases are edges already.
     Of all ears those are cut at once that are better than both beside them. Ears that fold back or hold a point of the
-    rim wait until there are no others.
+    rim wait until there are no others; if there are many, this is no pocket of the surface, and -1 is returned.
     """
     n = len(loop)
     edge, after, before = loop.copy(), np.empty(n, np.int64), np.empty(n, np.int64)
@@ -214,7 +215,7 @@ def cap(points, corners, twin, loop, first_free):
         after[k], before[k] = (k + 1) % n, (k - 1) % n
     for k in range(n):
         cost[k], bad[k] = ear_cost(points, corners, twin, edge, active, k, after[k], n == 3)
-    left, may_be_bad = n, False
+    left, may_be_bad, n_bad = n, False, 0
     while left > 3:
         cut = 0
         for place in range(len(active)):
@@ -227,10 +228,10 @@ def cap(points, corners, twin, loop, first_free):
             edge[k] = add_ear(corners, twin, edge[k], edge[other], first_free)
             first_free, edge[other] = first_free + 1, -1
             after[k], before[after[other]] = after[other], k
-            left, cut = left - 1, cut + 1
+            left, cut, n_bad = left - 1, cut + 1, n_bad + bad[k]
             for m in (before[k], k):
                 cost[m], bad[m] = ear_cost(points, corners, twin, edge, active, m, after[m], left == 3)
-        if cut == 0 and may_be_bad:
+        if (cut == 0 and may_be_bad) or n_bad > max(FEW_BAD, MOST_BAD * n):
             return -1
         active = active[edge[active] >= 0]
         may_be_bad = cut == 0

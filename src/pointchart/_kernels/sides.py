@@ -20,4 +20,4 @@ def survey_sides(points, normals, indptr, indices, steepest, first, last, angle,
     for i in range(first, last):
         row = indices[indptr[i] : indptr[i + 1]]
         n = project(points, normals[i], i, row, steepest, name, x, y, turns)
-        angle[i], offset[i] = measure_sides(x, y, n)
+        angle[i], offset[i] = measure_sides(x, y, turns, n)

@@ -42,8 +42,7 @@ def is_one_direction(ax, ay, bx, by):
 def project(points, normal, i, neighbors, steepest, name, x, y, angle):
     """Project neighbours to the tangent plane, sorted by angle; return how many are left.
 
-    Neighbours steeper than `steepest` (sine against the plane) belong to another sheet and go; of those in one
-    direction the nearest stays.
+    Neighbours steeper than `steepest` (sine against the plane) belong to another sheet and go.
     """
     ux, uy, uz, vx, vy, vz = tangent_frame(normal[0], normal[1], normal[2])
     n = 0
@@ -60,6 +59,12 @@ def project(points, normal, i, neighbors, steepest, name, x, y, angle):
             k -= 1
         name[k], x[k], y[k], angle[k] = j, px, py, t
         n += 1
+    return n
+
+
+@njit(cache=True, nogil=True)
+def drop_hidden(name, x, y, n):
+    """Keep of sorted neighbours in one direction the nearest; return how many are left."""
     kept = 0
     for k in range(n):
         if kept > 0 and is_one_direction(x[k], y[k], x[kept - 1], y[kept - 1]):
@@ -76,28 +81,28 @@ def project(points, normal, i, neighbors, steepest, name, x, y, angle):
 
 
 @njit(cache=True, nogil=True)
-def measure_sides(x, y, n):
+def measure_sides(x, y, turns, n):
     """Return the largest angle from one of n sorted neighbours to the next, and how far their centroid lies off.
 
-    The latter is over their mean distance.
+    The latter is over their mean distance. `turns` are the pseudo-angles of the neighbours, which grow by 2 in half a
+    turn and so tell on which side of one the next lies, whatever rounding does to those in one direction.
     """
     if n == 0:
         return 2.0 * math.pi, 1.0
-    widest, best, after, mx, my, mr = -1.0, 0, 0, 0.0, 0.0, 0.0
+    widest, angle, mx, my, mr = -1.0, 2.0 * math.pi, 0.0, 0.0, 0.0
     radius = math.sqrt(x[0] * x[0] + y[0] * y[0])
     for k in range(n):
         m = k + 1 if k + 1 < n else 0
         mx, my, mr = mx + x[k], my + y[k], mr + radius
         other = math.sqrt(x[m] * x[m] + y[m] * y[m])
         cosine = (x[k] * x[m] + y[k] * y[m]) / (radius * other)
+        span = turns[m] - turns[k] if m > 0 else turns[m] - turns[k] + 4.0
         # Grows with the angle, from 0 to 4.
-        measure = 1.0 - cosine if x[k] * y[m] >= y[k] * x[m] else 3.0 + cosine
+        measure = 1.0 - cosine if span <= 2.0 else 3.0 + cosine
         if measure > widest:
-            widest, best, after = measure, k, m
+            between = math.atan2(abs(x[k] * y[m] - y[k] * x[m]), x[k] * x[m] + y[k] * y[m])
+            widest, angle = measure, between if span <= 2.0 else 2.0 * math.pi - between
         radius = other
-    angle = math.atan2(x[best] * y[after] - y[best] * x[after], x[best] * x[after] + y[best] * y[after])
-    if angle < 0.0 or n == 1:
-        angle += 2.0 * math.pi
     return angle, math.sqrt(mx * mx + my * my) / mr
 
 
@@ -164,7 +169,8 @@ def delaunay_stars(
     for i in range(first, last):
         row = indices[indptr[i] : indptr[i + 1]]
         n = project(points, normals[i], i, row, steepest, name, x, y, turns)
-        angle[i], offset[i] = measure_sides(x, y, n)
+        angle[i], offset[i] = measure_sides(x, y, turns, n)
+        n = drop_hidden(name, x, y, n)
         start = gap_end(x, y, n)
         is_open[i] = start >= 0
         if not is_open[i]:
