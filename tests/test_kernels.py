@@ -424,6 +424,7 @@ CASES = {
     "energy.total_energy": lambda: (draft(),),
     "energy.triangle_energy": lambda: (SHAPE.points, 0, 1, 2),
     "graphs.dominators": lambda: (TREE[0], *GRAPH, 0, np.arange(5), np.array([0, -1, -1, -1, -1])),
+    "graphs.join": lambda: (np.array([0, 0, 1, 3, 3], dtype=np.int32), 4, 2),
     "graphs.join_parts": lambda: (SHAPE.points, AROUND.indptr, AROUND.indices, STEP, 0.8, int32s(N)),
     "graphs.reduce_rows": lambda: (
         STAR.indptr,

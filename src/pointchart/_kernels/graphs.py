@@ -59,6 +59,19 @@ def symmetrizer(order, parent, indptr, indices, values, scale):
 
 
 @njit(cache=True, nogil=True)
+def join(part, a, b):
+    """Join the parts of a and b in a forest whose roots are the smallest of each; return whether they were two."""
+    while part[a] != a:
+        part[a] = part[part[a]]
+        a = part[a]
+    while part[b] != b:
+        part[b] = part[part[b]]
+        b = part[b]
+    part[max(a, b)] = min(a, b)
+    return a != b
+
+
+@njit(cache=True, nogil=True)
 def join_parts(points, indptr, indices, spacing, most, part):
     """Join points by links of up to `most` spacings of the denser end; `part` is the smallest point of each part."""
     for i in range(len(points)):
@@ -72,14 +85,7 @@ def join_parts(points, indptr, indices, spacing, most, part):
             reach = most * min(spacing[i], spacing[j])
             if x * x + y * y + z * z > reach * reach:
                 continue
-            a, b = i, j
-            while part[a] != a:
-                part[a] = part[part[a]]
-                a = part[a]
-            while part[b] != b:
-                part[b] = part[part[b]]
-                b = part[b]
-            part[max(a, b)] = min(a, b)
+            join(part, i, j)
     for i in range(len(points)):
         part[i] = part[part[i]]
 

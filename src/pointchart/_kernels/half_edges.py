@@ -5,6 +5,8 @@ import math
 import numpy as np
 from numba import njit
 
+from .graphs import join
+
 
 @njit(cache=True, nogil=True, inline="always")
 def following(h):
@@ -109,16 +111,7 @@ def count_parts(corners, n_points):
     part = np.arange(n_points).astype(np.int32)
     count = n_points
     for h in range(len(corners)):
-        a, b = corners[h], corners[following(h)]
-        while part[a] != a:
-            part[a] = part[part[a]]
-            a = part[a]
-        while part[b] != b:
-            part[b] = part[part[b]]
-            b = part[b]
-        if a != b:
-            part[max(a, b)] = min(a, b)
-            count -= 1
+        count -= join(part, corners[h], corners[following(h)])
     return count
 
 
