@@ -8,8 +8,10 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 from functools import cache
 from pathlib import Path
+from typing import Self
 
 CHUNK = 8192
+FEWEST = 2
 _given: ContextVar[int | None] = ContextVar("_given", default=None)
 
 
@@ -71,3 +73,35 @@ def over_ranges(kernel: Callable[[int, int], object], n: int) -> None:
     finally:
         # After an interrupt nothing new begins, and the few ranges under way end before their arrays can go.
         pool.shutdown(cancel_futures=True)
+
+
+class Team:
+    """Threads that stay for many short calls; to be used as a context.
+
+    >>> seen = []
+    >>> with Team() as team:
+    ...     team(3, 5, lambda first, last: seen.append((first, last)))
+    >>> seen
+    [(0, 3)]
+    """
+
+    def __init__(self) -> None:
+        self._size = n_threads()
+        self._pool = ThreadPoolExecutor(self._size)
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._pool.shutdown(cancel_futures=True)
+
+    def __call__(self, n: int, block: int, kernel: Callable[..., object], *arguments: object) -> None:
+        """Call `kernel(*arguments, first, last)` for a range a thread, which together cover 0..n.
+
+        Ranges are of whole blocks, and of `FEWEST` at least where there are several: another thread has to be woken.
+        """
+        share = max(-(-n // (block * self._size)), FEWEST) * block
+        calls = [self._pool.submit(kernel, *arguments, i, min(i + share, n)) for i in range(share, n, share)]
+        kernel(*arguments, 0, min(share, n))
+        for call in calls:
+            call.result()

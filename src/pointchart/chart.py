@@ -6,6 +6,7 @@ from functools import partial
 from itertools import islice
 from typing import TypeAlias, cast
 
+import numpy as np
 import scipy.sparse as sp
 
 from ._exact import orientation_signs
@@ -19,10 +20,10 @@ from .quality import l2_stretch, vertex_stretches
 from .refine import Meshed
 from .reopen import openings
 from .solve import Solver, solve_fixed
-from .typing import UV, Loop, Points, Triangles, Weights
+from .typing import UV, Loop, Points, Triangles
 from .weights import WeightScheme, fixed, mean_value, normalize, uniform
 
-QUICK_TOLERANCE = 1e-8
+QUICK_TOLERANCES = 1e-6, 1e-10
 DIRECT_LIMIT = 10_000  # points up to which factors cost less than a hierarchy of matrices
 RELAXATIONS = 8  # the stretch falls most in the first two; thin limbs go on to open up to the eighth
 
@@ -32,10 +33,10 @@ ChartRule: TypeAlias = Callable[[Points, Loop, UV, Meshed, Solver | None], Param
 def uv_on_mesh(points: Points, loop: Loop, boundary_uv: UV, meshed: Meshed, solver: Solver | None) -> Parameterization:
     """Map the mesh by mean value weights: one-to-one, by Tutte's and Floater's theorem.
 
-    Without a solver, large meshes are mapped by multigrid to a relative residual of 1e-8 first. Where that leaves a
-    triangle that is not positive, by exact signs, the map is solved to the last digits; where one is flat in double
-    precision all the same, the map is opened by other weights (`openings`); failing that, the same is done from uniform
-    weights, Tutte's own. Weights stay positive, so the theorem holds throughout.
+    Without a solver, large meshes are mapped by multigrid to a relative residual of 1e-6 first, and on to 1e-10 where
+    that leaves a triangle that is not positive, by exact signs. Failing that, the map is solved to the last digits;
+    where one is flat in double precision all the same, the map is opened by other weights (`openings`), then from
+    uniform weights, Tutte's own. Weights stay positive, so the theorem holds throughout.
 
     Parameters
     ----------
@@ -61,9 +62,10 @@ def uv_on_mesh(points: Points, loop: Loop, boundary_uv: UV, meshed: Meshed, solv
     triangles = meshed.swapped.triangles
     rings = one_rings(triangles, len(points))
     if solver is None and len(points) > DIRECT_LIMIT:
-        quick = _quick_map(points, loop, boundary_uv, rings)
-        if quick is not None and is_positive(quick.uv, triangles):
-            return quick
+        with suppress(SolveError):
+            for quick in _quick_maps(points, loop, boundary_uv, rings):
+                if is_positive(quick.uv, triangles):
+                    return quick
     mapped: Parameterization | None = None
     failure: PointchartError | None = None
     for scheme in (mean_value, uniform):
@@ -79,20 +81,15 @@ def uv_on_mesh(points: Points, loop: Loop, boundary_uv: UV, meshed: Meshed, solv
     return mapped
 
 
-def _quick_map(points: Points, loop: Loop, boundary_uv: UV, rings: Neighborhoods) -> Parameterization | None:
-    """Map the mesh to a residual that is small against the whole, not where it is fine; None if that is not reached.
-
-    Most maps are one-to-one then, which has to be checked.
-    """
-    with suppress(SolveError):
-        quick = partial(multigrid, tolerance=QUICK_TOLERANCE)
-        solution = solve_fixed(_matrix(mean_value(points, rings), rings), loop, boundary_uv, solver=quick)
-        return Parameterization(solution.values, loop, solution)
-    return None
-
-
-def _matrix(weights: Weights, rings: Neighborhoods) -> sp.csr_array:
-    return sp.csr_array((weights, rings.indices, rings.indptr), shape=(rings.n_points,) * 2)
+def _quick_maps(points: Points, loop: Loop, boundary_uv: UV, rings: Neighborhoods) -> Iterator[Parameterization]:
+    """Map the mesh to residuals that are small against the whole, not where it is fine."""
+    weights = mean_value(points, rings)
+    matrix = sp.csr_array((weights, rings.indices, rings.indptr), shape=(rings.n_points,) * 2)
+    start = None
+    for tolerance in QUICK_TOLERANCES:
+        solution = solve_fixed(matrix, loop, boundary_uv, solver=partial(multigrid, tolerance=tolerance, start=start))
+        start = np.delete(solution.values, loop, axis=0)
+        yield Parameterization(solution.values, loop, solution)
 
 
 def uv_low_stretch(

@@ -1,6 +1,8 @@
 """The multigrid solver: linear in time and memory."""
 
-from typing import Any, NamedTuple
+from collections import defaultdict
+from threading import get_ident
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 import scipy.sparse as sp
@@ -16,17 +18,29 @@ from ._kernels.coarsen import (
     split_rows,
     transpose,
 )
-from ._kernels.multigrid import Levels, bicgstab_pair
-from ._parallel import over_ranges
+from ._kernels.multigrid import (
+    BLOCK,
+    advance,
+    find_rest,
+    multiply,
+    prolong,
+    redirect,
+    restrict,
+    sweep_backward,
+    sweep_forward,
+)
+from ._kernels.unsigned import unsigned
+from ._parallel import Team, over_ranges
 from .errors import SolveError
-from .typing import Floats, Indices
+from .typing import Floats, Indices, Mask
 
 COARSEST = 200  # unknowns that are solved for directly
 LARGEST = 3000  # the same, where coarsening comes to an end before, as on many parts
-ROOM = 4  # times the entries of the first level; all levels have about 1.6 times as many
 TOLERANCE = 1e-12
 SLACK = 10.0  # of the true residual over the tolerance: that of the iteration drifts from it
 MOST_ITERATIONS = 200
+
+Singles: TypeAlias = NDArray[np.float32]
 
 
 def multigrid(
@@ -67,16 +81,15 @@ def multigrid(
     n, d = right.shape
     if d == 0:
         return np.zeros((n, 0)), ()
-    levels = _levels(left)
+    hierarchy = _coarsened(left)
     counts: list[int] = []
     solution = np.zeros((n, d)) if start is None else np.array(start, dtype=np.float64)
-    for k in range(0, d, 2):
-        # A last column without a partner is solved for twice.
-        pair = [k, min(k + 1, d - 1)]
-        known, x = np.ascontiguousarray(right[:, pair], dtype=np.float64), np.ascontiguousarray(solution[:, pair])
-        found = bicgstab_pair(left.indptr, left.indices, left.data, levels, known, x, tolerance, MOST_ITERATIONS)
-        counts += found[: d - k].tolist()
-        solution[:, pair] = x
+    with Team() as team:
+        for k in range(0, d, 2):
+            # A last column without a partner is solved for twice.
+            pair = [k, min(k + 1, d - 1)]
+            solution[:, pair], found = _bicgstab(left, hierarchy, right[:, pair], solution[:, pair], tolerance, team)
+            counts += found[: d - k].tolist()
     missed = np.linalg.norm(right - left @ solution, axis=0) > SLACK * tolerance * np.linalg.norm(right, axis=0)
     if min(counts) < 0 or missed.any():
         raise SolveError(
@@ -96,7 +109,7 @@ class _Matrix(NamedTuple):
     diagonal: Floats
 
 
-class _Prolongation(NamedTuple):
+class _Transfer(NamedTuple):
     """Compressed rows: the interpolation of a level from the next, or its transpose."""
 
     indptr: Indices
@@ -104,56 +117,117 @@ class _Prolongation(NamedTuple):
     data: Floats
 
 
-def _levels(left: sp.csr_array) -> Levels:
-    """Coarsen until few unknowns are left; all levels in the same arrays, in single precision but for the first's.
+class _Vectors(NamedTuple):
+    """Of a level: right side, what a sweep finds, what the next one makes of it, what is left of the right side."""
 
-    The arrays have more room than is needed; what is not written to takes no memory.
+    known: Singles
+    found: Singles
+    better: Singles
+    rest: Singles
+
+
+class _Level(NamedTuple):
+    """A matrix as the sweeps take it, and the ways from and to the next level."""
+
+    rows: tuple[Indices, Indices, Indices, Singles, Singles]
+    prolongation: _Transfer
+    restriction: _Transfer
+
+
+class _Hierarchy(NamedTuple):
+    """What preconditions a matrix, in single precision: levels, the inverse of the coarsest matrix, and vectors."""
+
+    levels: list[_Level]
+    coarsest: Floats
+    vectors: list[_Vectors]
+
+
+def _bicgstab(
+    left: sp.csr_array, hierarchy: _Hierarchy, right: Floats, start: Floats, tolerance: float, team: Team
+) -> tuple[Floats, Indices]:
+    """Solve for two right sides; return the iterations of each, -1 where they are too many.
+
+    van der Vorst 1992, preconditioned from the right; a column that has converged is left alone.
     """
-    matrix, n = _split(left), left.shape[0]
-    room, p_room = ROOM * len(matrix.data), ROOM * (len(matrix.data) + n)
-    indices, data, p_indices, p_data = (
-        np.empty(size, kind) for size in (room, p_room) for kind in (np.int32, np.float32)
-    )
-    pieces: list[tuple[_Matrix, Indices]] = []
-    begin = p_begin = 0
-    while True:
-        end = begin + len(matrix.data)
-        indices, data = _with_room(indices, begin, end), _with_room(data, begin, end)
-        indices[begin:end], data[begin:end] = matrix.indices, matrix.data
-        is_last = len(matrix.diagonal) <= COARSEST
-        prolongation, n_coarse = (None, 0) if is_last else _interpolation(matrix)
-        is_last = is_last or n_coarse in (0, len(matrix.diagonal))
-        p_indptr = np.full(len(matrix.indptr), p_begin)
-        if prolongation is not None and not is_last:
-            p_end = p_begin + len(prolongation.data)
-            p_indices, p_data = _with_room(p_indices, p_begin, p_end), _with_room(p_data, p_begin, p_end)
-            p_indices[p_begin:p_end], p_data[p_begin:p_end] = prolongation.indices, prolongation.data
-            p_indptr, p_begin = prolongation.indptr + p_begin, p_end
-        light = _Matrix(matrix.indptr + begin, matrix.middle + begin, indices[:0], data[:0], matrix.diagonal)
-        pieces.append((light, p_indptr))
-        begin = end
-        if prolongation is None or is_last:
+    n, rows, counts = len(right), (unsigned(left.indptr), unsigned(left.indices), left.data), np.full(2, -1)
+    # Powers of two, so that single precision will do for right sides of any size.
+    unit = np.ldexp(1.0, np.frexp(np.linalg.norm(right, axis=0))[1])
+    x, rest = np.ascontiguousarray(start / unit), np.ascontiguousarray((right - left @ start) / unit)
+    small = (tolerance * np.linalg.norm(right / unit, axis=0)) ** 2
+    shadow, direction, across, along = rest.copy(), rest.copy(), np.empty((n, 2)), np.empty((n, 2))
+    sums = np.zeros((-(-n // BLOCK), 4))
+    rho = size = (rest * rest).sum(axis=0)
+    for step in range(MOST_ITERATIONS + 1):
+        counts[(counts < 0) & (size <= small)] = step
+        is_open = counts < 0
+        if step == MOST_ITERATIONS or not is_open.any():
             break
-        matrix = _product(matrix, prolongation, n_coarse)
-    sizes = np.array([len(piece.diagonal) for piece, _ in pieces])
-    if sizes[-1] > LARGEST:
+        guess = _cycle(hierarchy, direction, team)
+        team(n, BLOCK, multiply, *rows, guess, across, shadow, sums)
+        alpha = _quotients(rho, sums.sum(axis=0)[:2], is_open)
+        team(n, BLOCK, advance, x, rest, alpha, guess, across, shadow, sums)
+        guess = _cycle(hierarchy, rest, team)
+        team(n, BLOCK, multiply, *rows, guess, along, rest, sums)
+        omega = _quotients(*np.split(sums.sum(axis=0), 2), is_open)
+        team(n, BLOCK, advance, x, rest, omega, guess, along, shadow, sums)
+        before = rho
+        rho, size = np.split(sums.sum(axis=0), 2)
+        beta = _quotients(rho * alpha, before * omega, is_open)
+        team(n, BLOCK, redirect, direction, rest, across, beta, omega)
+    return x * unit, counts
+
+
+def _quotients(a: Floats, b: Floats, is_open: Mask) -> Floats:
+    """Divide; 0 for columns that are solved, or by 0."""
+    return np.divide(a, b, out=np.zeros(2), where=is_open & (b != 0.0))
+
+
+def _cycle(hierarchy: _Hierarchy, known: Floats, team: Team) -> Singles:
+    """Solve roughly by one V-cycle: a sweep forwards on the way down, from zero, one backwards on the way up."""
+    levels, vectors = hierarchy.levels, hierarchy.vectors
+    vectors[0].known[:] = known
+    for level, here, below in zip(levels, vectors, vectors[1:], strict=False):
+        n, n_coarse = len(here.known), len(below.known)
+        team(n, BLOCK, sweep_forward, *level.rows, here.known, here.found)
+        team(n, BLOCK, find_rest, *level.rows[:4], here.found, here.rest)
+        team(n_coarse, BLOCK, restrict, *level.restriction, here.rest, below.known)
+    vectors[-1].better[:] = hierarchy.coarsest @ vectors[-1].known
+    for level, here, below in zip(levels[::-1], vectors[-2::-1], vectors[:0:-1], strict=True):
+        n = len(here.known)
+        team(n, BLOCK, prolong, *level.prolongation, below.better, here.found)
+        team(n, BLOCK, sweep_backward, *level.rows, here.known, here.found, here.better)
+    return vectors[0].better
+
+
+def _coarsened(left: sp.csr_array) -> _Hierarchy:
+    """Coarsen until few unknowns are left."""
+    matrix, levels, vectors = _split(left), [], []
+    while True:
+        n = len(matrix.diagonal)
+        vectors.append(_Vectors(*(np.empty((n, 2), np.float32) for _ in range(4))))
+        if n <= COARSEST:
+            break
+        prolongation, n_coarse = _interpolation(matrix)
+        if n_coarse in (0, n):
+            break
+        restriction = _transposed(prolongation, n_coarse)
+        levels.append(_Level(_in_singles(matrix), *map(_light, (prolongation, restriction))))
+        matrix = _product(matrix, prolongation, restriction)
+    if n > LARGEST:
         raise SolveError(
-            f"multigrid found no coarse system for {n} unknowns, as if they were in many parts; use the direct solver"
+            f"multigrid found no coarse system for {left.shape[0]} unknowns, as if they were in many parts; "
+            "use the direct solver"
         )
-    return Levels(
-        sizes=sizes,
-        places=np.concatenate([[0], np.cumsum(sizes)]),
-        rows=np.concatenate([[0], np.cumsum(sizes + 1)])[:-1],
-        indptr=np.concatenate([piece.indptr for piece, _ in pieces]),
-        middle=np.concatenate([piece.middle for piece, _ in pieces]),
-        indices=indices,
-        data=data,
-        diagonal=np.concatenate([piece.diagonal for piece, _ in pieces]),
-        p_indptr=np.concatenate([p_indptr for _, p_indptr in pieces]),
-        p_indices=p_indices,
-        p_data=p_data,
-        coarsest=_inverse(matrix),
-    )
+    return _Hierarchy(levels, _inverse(matrix), vectors)
+
+
+def _in_singles(matrix: _Matrix) -> tuple[Indices, Indices, Indices, Singles, Singles]:
+    return *map(unsigned, matrix[:3]), matrix.data.astype(np.float32), (1.0 / matrix.diagonal).astype(np.float32)
+
+
+def _light(transfer: _Transfer) -> _Transfer:
+    """Give what is large no more room than it takes."""
+    return _Transfer(unsigned(transfer.indptr), unsigned(transfer.indices.copy()), transfer.data.astype(np.float32))
 
 
 def _split(left: sp.csr_array) -> _Matrix:
@@ -161,57 +235,57 @@ def _split(left: sp.csr_array) -> _Matrix:
     if not (left.diagonal() > 0.0).all():
         raise SolveError("multigrid needs a matrix with a positive diagonal; use the direct solver")
     matrix = _Matrix(
-        np.empty(n + 1, np.int64), np.empty(n, np.int64), np.empty(left.nnz, np.int32), np.empty(left.nnz), np.empty(n)
+        *(np.empty(size, np.int64) for size in (n + 1, n)),
+        np.empty(left.nnz, np.int32),
+        np.empty(left.nnz),
+        np.empty(n),
     )
     size = split_rows(left.indptr, left.indices, left.data, *matrix)
     return matrix._replace(indices=matrix.indices[:size], data=matrix.data[:size])
 
 
-def _interpolation(matrix: _Matrix) -> tuple[_Prolongation, int]:
+def _interpolation(matrix: _Matrix) -> tuple[_Transfer, int]:
     """Choose the points of the next level, and interpolate from them; return how many there are."""
     n, nnz = len(matrix.diagonal), len(matrix.data)
     strong, first, origins = np.empty(nnz, np.bool_), np.empty(n + 1, np.int64), np.empty(nnz, np.int32)
     mark_strong(matrix.indptr, matrix.data, strong)
     reverse_strong(matrix.indptr, matrix.indices, strong, first, origins)
     coarse = np.empty(n, np.int32)
-    count = choose_coarse(matrix.indptr, matrix.indices, strong, first, origins, coarse)
+    count = choose_coarse(*map(unsigned, (matrix.indptr, matrix.indices, first, origins)), strong, coarse)
     indptr, indices, data = np.empty(n + 1, np.int64), np.empty(nnz + n, np.int32), np.empty(nnz + n)
     size = interpolate(
         matrix.indptr, matrix.indices, matrix.data, matrix.diagonal, strong, coarse, indptr, indices, data
     )
-    return _Prolongation(indptr, indices[:size], data[:size]), int(count)
+    return _Transfer(indptr, indices[:size], data[:size]), int(count)
 
 
-def _product(matrix: _Matrix, prolongation: _Prolongation, n_coarse: int) -> _Matrix:
-    """Return the matrix of the next level, the product of transposed interpolation, matrix and interpolation."""
+def _transposed(prolongation: _Transfer, n_coarse: int) -> _Transfer:
     size = len(prolongation.data)
-    restriction = _Prolongation(np.empty(n_coarse + 1, np.int64), np.empty(size, np.int32), np.empty(size))
+    restriction = _Transfer(np.empty(n_coarse + 1, np.int64), np.empty(size, np.int32), np.empty(size))
     transpose(*prolongation, *restriction)
-    fine = matrix.indptr, matrix.indices, matrix.data, matrix.diagonal
+    return restriction
+
+
+def _product(matrix: _Matrix, prolongation: _Transfer, restriction: _Transfer) -> _Matrix:
+    """Return the matrix of the next level, the product of restriction, matrix and interpolation."""
+    n_coarse = len(restriction.indptr) - 1
+    # Plain tuples: the compiled code that is kept would name the classes of others.
+    along, back = ((unsigned(way.indptr), unsigned(way.indices), way.data) for way in (prolongation, restriction))
+    fine = unsigned(matrix.indptr), unsigned(matrix.indices), matrix.data, matrix.diagonal
     sizes, middle, diagonal = np.empty(n_coarse, np.int64), np.empty(n_coarse, np.int64), np.empty(n_coarse)
+    marks: defaultdict[int, Indices] = defaultdict(lambda: np.full(n_coarse, -1, np.int32))  # one a thread
     parts: dict[int, tuple[Indices, Floats]] = {}
 
     def multiply(first: int, last: int) -> None:
-        room = most_entries(fine[0], prolongation.indptr, fine[1], restriction.indptr, restriction.indices, first, last)
-        columns, values, mark = np.empty(room, np.int32), np.empty(room), np.full(n_coarse, -1, np.int32)
-        count = galerkin_rows(
-            fine, prolongation, restriction, first, last, mark, sizes, middle, diagonal, columns, values
-        )
+        room = most_entries(fine[0], along[0], fine[1], *back[:2], first, last)
+        columns, values, mark = np.empty(room, np.int32), np.empty(room), marks[get_ident()]
+        count = galerkin_rows(fine, along, back, first, last, mark, sizes, middle, diagonal, columns, values)
         parts[first] = columns[:count].copy(), values[:count].copy()
 
     over_ranges(multiply, n_coarse)
     indices, data = (np.concatenate([parts[first][k] for first in sorted(parts)]) for k in range(2))
     indptr = np.concatenate([[0], np.cumsum(sizes)])
     return _Matrix(indptr, indptr[:-1] + middle, indices, data, diagonal)
-
-
-def _with_room(array: NDArray[Any], used: int, needed: int) -> NDArray[Any]:
-    """Return an array with room for `needed` entries, the first `used` kept."""
-    if needed <= len(array):
-        return array
-    larger = np.empty(2 * needed, array.dtype)
-    larger[:used] = array[:used]
-    return larger
 
 
 def _inverse(matrix: _Matrix) -> Floats:

@@ -78,7 +78,7 @@ def reverse_strong(indptr, indices, strong, first, origins):
 
 
 @njit(cache=True, nogil=True)
-def choose_coarse(indptr, indices, strong, first, origins, coarse):
+def choose_coarse(indptr, indices, first, origins, strong, coarse):
     """Choose points so that each other one has a strong link to one, few of them; return how many.
 
     The point on which most others depend comes next, those that have become dependent counting twice. `coarse` becomes
@@ -211,9 +211,9 @@ def most_entries(indptr, p_indptr, indices, r_indptr, r_indices, first, last):
     total = 0
     for s in range(r_indptr[first], r_indptr[last]):
         i = r_indices[s]
-        total += p_indptr[i + 1] - p_indptr[i]
+        total += np.int64(p_indptr[i + 1] - p_indptr[i])
         for j in indices[indptr[i] : indptr[i + 1]]:
-            total += p_indptr[j + 1] - p_indptr[j]
+            total += np.int64(p_indptr[j + 1] - p_indptr[j])
     return total
 
 
@@ -225,24 +225,16 @@ def galerkin_rows(matrix, prolongation, restriction, first, last, mark, sizes, m
     its beginning.
     """
     indptr, indices, data, center = matrix
-    p_indptr, p_indices, p_data = prolongation
     r_indptr, r_indices, r_data = restriction
     size = 0
     for row in range(first, last):
         begin, own = size, 0.0
         for s in range(r_indptr[row], r_indptr[row + 1]):
             i, r = r_indices[s], r_data[s]
-            for e in range(indptr[i] - 1, indptr[i + 1]):
-                j, a = (indices[e], r * data[e]) if e >= indptr[i] else (i, r * center[i])
-                for t in range(p_indptr[j], p_indptr[j + 1]):
-                    column, value = p_indices[t], a * p_data[t]
-                    if column == row:
-                        own += value
-                    elif mark[column] >= begin and columns[mark[column]] == column:
-                        values[mark[column]] += value
-                    else:
-                        mark[column], columns[size], values[size] = size, column, value
-                        size += 1
+            size, own = add_row(prolongation, i, r * center[i], row, begin, size, own, mark, columns, values)
+            for e in range(indptr[i], indptr[i + 1]):
+                j, a = indices[e], r * data[e]
+                size, own = add_row(prolongation, j, a, row, begin, size, own, mark, columns, values)
         for k in range(begin, size):
             mark[columns[k]] = -1
         end = begin
@@ -251,3 +243,19 @@ def galerkin_rows(matrix, prolongation, restriction, first, last, mark, sizes, m
         sizes[row], diagonal[row] = size - begin, own
         middle[row] = middle_of(columns, begin, size, row) - begin
     return size
+
+
+@njit(cache=True, nogil=True)
+def add_row(prolongation, j, factor, row, begin, size, own, mark, columns, values):
+    """Add a multiple of row j of the interpolation to the row of a product from `begin`; return its size and diagonal."""
+    p_indptr, p_indices, p_data = prolongation
+    for t in range(p_indptr[j], p_indptr[j + 1]):
+        column, value = p_indices[t], factor * p_data[t]
+        if column == row:
+            own += value
+        elif mark[column] >= begin and columns[mark[column]] == column:
+            values[mark[column]] += value
+        else:
+            mark[column], columns[size], values[size] = size, column, value
+            size += 1
+    return size, own
