@@ -6,6 +6,7 @@ import numpy as np
 
 from ._kernels.assemble import cap, cut_walks, keep_largest, mark_pinching, mark_rims, to_half_edges
 from ._kernels.half_edges import pair_half_edges
+from ._kernels.unsigned import unsigned
 from .boundary import Patchwork, is_same_loop
 from .typing import Indices, Loop, Points, Triangles
 
@@ -75,7 +76,7 @@ def assemble(points: Points, surface: Patchwork, loop: Loop) -> Assembled | None
         if free < 0:
             return None
     # An ear does not see all fans of a point at which pockets touch.
-    if pair_half_edges(closed, n, twins) > 0:
+    if pair_half_edges(unsigned(closed), n, twins) > 0:
         return None
     triangles = closed.reshape(-1, 3)
     place = int(np.flatnonzero(corners[loops[outer[0]]] == loop[0])[0])

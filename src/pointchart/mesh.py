@@ -7,6 +7,7 @@ import numpy as np
 from ._check import check_triangles
 from ._kernels.drafts import Draft
 from ._kernels.half_edges import count_fans, order_rings, pair_half_edges
+from ._kernels.unsigned import unsigned
 from .errors import InputError
 from .neighbors import Neighborhoods
 from .typing import Indices, Loop, Points, Triangles
@@ -47,7 +48,7 @@ def half_edges(triangles: Triangles, n_points: int) -> HalfEdges:
     """
     origins = np.array(triangles, dtype=np.int32).ravel()
     twins = np.empty_like(origins)
-    overfull = pair_half_edges(origins, n_points, twins)
+    overfull = pair_half_edges(unsigned(origins), n_points, twins)
     return HalfEdges(origins, twins, int(overfull))
 
 

@@ -83,14 +83,17 @@ def multigrid(
         return np.zeros((n, 0)), ()
     hierarchy = _coarsened(left)
     counts: list[int] = []
+    sizes = np.linalg.norm(right, axis=0)
     solution = np.zeros((n, d)) if start is None else np.array(start, dtype=np.float64)
+    rest = np.asarray(right, np.float64) if start is None else right - left @ solution
     with Team() as team:
         for k in range(0, d, 2):
             # A last column without a partner is solved for twice.
             pair = [k, min(k + 1, d - 1)]
-            solution[:, pair], found = _bicgstab(left, hierarchy, right[:, pair], solution[:, pair], tolerance, team)
+            gain, found = _bicgstab(left, hierarchy, rest[:, pair], tolerance * sizes[pair], team)
+            solution[:, pair] += gain
             counts += found[: d - k].tolist()
-    missed = np.linalg.norm(right - left @ solution, axis=0) > SLACK * tolerance * np.linalg.norm(right, axis=0)
+    missed = np.linalg.norm(right - left @ solution, axis=0) > SLACK * tolerance * sizes
     if min(counts) < 0 or missed.any():
         raise SolveError(
             f"multigrid did not reach a relative residual of {tolerance:g} in {MOST_ITERATIONS} iterations "
@@ -143,17 +146,16 @@ class _Hierarchy(NamedTuple):
 
 
 def _bicgstab(
-    left: sp.csr_array, hierarchy: _Hierarchy, right: Floats, start: Floats, tolerance: float, team: Team
+    left: sp.csr_array, hierarchy: _Hierarchy, right: Floats, tolerances: Floats, team: Team
 ) -> tuple[Floats, Indices]:
-    """Solve for two right sides; return the iterations of each, -1 where they are too many.
+    """Solve for two right sides to absolute tolerances; return the iterations of each, -1 where they are too many.
 
     van der Vorst 1992, preconditioned from the right; a column that has converged is left alone.
     """
     n, rows, counts = len(right), (unsigned(left.indptr), unsigned(left.indices), left.data), np.full(2, -1)
     # Powers of two, so that single precision will do for right sides of any size.
     unit = np.ldexp(1.0, np.frexp(np.linalg.norm(right, axis=0))[1])
-    x, rest = np.ascontiguousarray(start / unit), np.ascontiguousarray((right - left @ start) / unit)
-    small = (tolerance * np.linalg.norm(right / unit, axis=0)) ** 2
+    small, rest, x = (tolerances / unit) ** 2, np.ascontiguousarray(right / unit), np.zeros((n, 2))
     shadow, direction, across, along = rest.copy(), rest.copy(), np.empty((n, 2)), np.empty((n, 2))
     sums = np.zeros((-(-n // BLOCK), 4))
     rho = size = (rest * rest).sum(axis=0)
@@ -168,7 +170,8 @@ def _bicgstab(
         team(n, BLOCK, advance, x, rest, alpha, guess, across, shadow, sums)
         guess = _cycle(hierarchy, rest, team)
         team(n, BLOCK, multiply, *rows, guess, along, rest, sums)
-        omega = _quotients(*np.split(sums.sum(axis=0), 2), is_open)
+        product, size = np.split(sums.sum(axis=0), 2)
+        omega = _quotients(product, size, is_open)
         team(n, BLOCK, advance, x, rest, omega, guess, along, shadow, sums)
         before = rho
         rho, size = np.split(sums.sum(axis=0), 2)
@@ -222,7 +225,8 @@ def _coarsened(left: sp.csr_array) -> _Hierarchy:
 
 
 def _in_singles(matrix: _Matrix) -> tuple[Indices, Indices, Indices, Singles, Singles]:
-    return *map(unsigned, matrix[:3]), matrix.data.astype(np.float32), (1.0 / matrix.diagonal).astype(np.float32)
+    indptr, middle, indices = map(unsigned, matrix[:3])
+    return indptr, middle, indices, matrix.data.astype(np.float32), (1.0 / matrix.diagonal).astype(np.float32)
 
 
 def _light(transfer: _Transfer) -> _Transfer:
@@ -234,12 +238,8 @@ def _split(left: sp.csr_array) -> _Matrix:
     n = left.shape[0]
     if not (left.diagonal() > 0.0).all():
         raise SolveError("multigrid needs a matrix with a positive diagonal; use the direct solver")
-    matrix = _Matrix(
-        *(np.empty(size, np.int64) for size in (n + 1, n)),
-        np.empty(left.nnz, np.int32),
-        np.empty(left.nnz),
-        np.empty(n),
-    )
+    indptr, middle, diagonal = np.empty(n + 1, np.int64), np.empty(n, np.int64), np.empty(n)
+    matrix = _Matrix(indptr, middle, np.empty(left.nnz, np.int32), np.empty(left.nnz), diagonal)
     size = split_rows(left.indptr, left.indices, left.data, *matrix)
     return matrix._replace(indices=matrix.indices[:size], data=matrix.data[:size])
 
@@ -251,7 +251,8 @@ def _interpolation(matrix: _Matrix) -> tuple[_Transfer, int]:
     mark_strong(matrix.indptr, matrix.data, strong)
     reverse_strong(matrix.indptr, matrix.indices, strong, first, origins)
     coarse = np.empty(n, np.int32)
-    count = choose_coarse(*map(unsigned, (matrix.indptr, matrix.indices, first, origins)), strong, coarse)
+    rows = unsigned(matrix.indptr), unsigned(matrix.indices)
+    count = choose_coarse(*rows, unsigned(first), unsigned(origins), strong, coarse)
     indptr, indices, data = np.empty(n + 1, np.int64), np.empty(nnz + n, np.int32), np.empty(nnz + n)
     size = interpolate(
         matrix.indptr, matrix.indices, matrix.data, matrix.diagonal, strong, coarse, indptr, indices, data

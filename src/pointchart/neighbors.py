@@ -8,6 +8,7 @@ from numpy.typing import ArrayLike
 
 from ._check import check_neighbors, check_points
 from ._kernels.nearest import LEAF, bound_boxes, find_nearest, middle_distances
+from ._kernels.unsigned import unsigned
 from ._parallel import over_ranges
 from .errors import InputError
 from .morton import morton_order
@@ -52,6 +53,11 @@ class Neighborhoods:
     def sizes(self) -> Indices:
         """Number of neighbours of each point, (n,)."""
         return np.diff(self.indptr)
+
+    @property
+    def table(self) -> tuple[Indices, Indices]:
+        """`indptr` and `indices` of one type each, unsigned: as compiled loops take them, see `unsigned`."""
+        return unsigned(np.asarray(self.indptr, np.int64)), unsigned(np.asarray(self.indices, np.int32))
 
     @property
     def rows(self) -> Indices:
@@ -202,15 +208,15 @@ class BoxTree:
     def nearest(self, k: int, queries: Indices | None = None) -> Indices:
         """Find the `k` nearest others, if there are as many, of some points or of all, nearest first: (q, k) int32."""
         points = self._points
-        places = np.arange(len(points), dtype=np.int32) if queries is None else queries
-        found = np.empty((len(places), min(k, len(points) - 1)), np.int32)
+        places = np.arange(len(points)) if queries is None else queries
+        places, found = places.astype(np.uint32), np.empty((len(places), min(k, len(points) - 1)), np.uint32)
 
         def find(first: int, last: int) -> None:
             squares = np.empty((last - first, found.shape[1]))
-            find_nearest(points, self._low, self._high, places[first:last], 0, last - first, found[first:last], squares)
+            find_nearest(points, self._low, self._high, places[first:last], found[first:last], squares)
 
         over_ranges(find, len(places))
-        return found
+        return found.view(np.int32)
 
 
 def search(tree: "cKDTree", points: Floats, k: int) -> tuple[Floats, Indices]:
@@ -259,7 +265,7 @@ def spacing(points: ArrayLike, *, k: int = 6, around: Neighborhoods | None = Non
     # Neighbours are sorted by distance: the median is that of the middle one, or the mean of the middle two.
     one, other, result = (count - 1) // 2, count // 2, np.empty(len(cloud))
     over_ranges(
-        lambda first, last: middle_distances(cloud, found.indptr, found.indices, one, other, first, last, result),
+        lambda first, last: middle_distances(cloud, *found.table, one, other, first, last, result),
         len(cloud),
     )
     return result

@@ -14,7 +14,7 @@ from .mesh import start_draft
 from .neighbors import Neighborhoods
 from .parameterize import Parameterization, parameterize
 from .recover import recover_links
-from .relocate import relocate_in_place, suspect_points
+from .relocate import least_gain, relocate_in_place, suspect_points
 from .reopen import parameterize_open
 from .solve import Solver
 from .swaps import Swapped, swap_in_place
@@ -123,7 +123,7 @@ def _settled(
 
     Swaps and suspects are looked for everywhere at first, then where points have moved.
     """
-    n_moves, among, is_touched = 0, None, None
+    n_moves, among, is_touched, least = 0, None, None, 0.0
     with clock("swap"):
         draft = start_draft(points, triangles, journal=JOURNAL)
         n_swaps, is_settled = swap_in_place(points, draft.corners, draft.twin)
@@ -131,7 +131,8 @@ def _settled(
         with clock("relocate"):
             draft.leaving[draft.corners] = np.arange(len(draft.corners), dtype=np.int32)
             suspects = suspect_points(links, draft, among)
-            moves, is_touched = relocate_in_place(draft, around, suspects)
+            least = least if len(suspects) == 0 or least > 0.0 else least_gain(draft)
+            moves, is_touched = relocate_in_place(draft, around, suspects, least)
         if moves == 0:
             break
         among = np.flatnonzero(is_touched)

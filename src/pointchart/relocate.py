@@ -65,12 +65,17 @@ def relocate_points(points: Points, triangles: Triangles, around: Neighborhoods,
     (1, [2, 2, 2, 2, 4])
     """
     draft = start_draft(points, triangles, journal=JOURNAL)
-    n_moves, _ = relocate_in_place(draft, around, suspects)
+    n_moves, _ = relocate_in_place(draft, around, suspects, least_gain(draft))
     return Relocated(draft.corners.reshape(-1, 3), n_moves)
 
 
-def relocate_in_place(draft: Draft, around: Neighborhoods, suspects: Indices) -> tuple[int, Mask]:
-    """Relocate points of a draft as `relocate_points` does.
+def least_gain(draft: Draft) -> float:
+    """Return by how much a move has to make the energy of a mesh fall."""
+    return LEAST_GAIN * float(total_energy(draft)) / (len(draft.corners) // 3)
+
+
+def relocate_in_place(draft: Draft, around: Neighborhoods, suspects: Indices, least: float) -> tuple[int, Mask]:
+    """Relocate points of a draft as `relocate_points` does, where the energy falls by more than `least`.
 
     Returns
     -------
@@ -78,11 +83,10 @@ def relocate_in_place(draft: Draft, around: Neighborhoods, suspects: Indices) ->
     is_touched : (n,) bool array
         The points of all triangles that changed.
     """
-    n, n_triangles = len(draft.points), len(draft.corners) // 3
+    n = len(draft.points)
     is_touched = np.zeros(n, np.bool_)
     if len(suspects) == 0:
         return 0, is_touched
-    least = LEAST_GAIN * total_energy(draft) / n_triangles
     queue, waiting = np.zeros(n, np.int32), np.zeros(n, np.bool_)
     queue[: len(suspects)], waiting[suspects] = suspects, True
     moves = relocate_kernel(
@@ -113,9 +117,7 @@ def suspect_points(links: Neighborhoods, draft: Draft, among: Indices | None = N
     """
     places = np.arange(links.n_points, dtype=np.int32) if among is None else among
     is_far = np.zeros(links.n_points, np.bool_)
-    over_ranges(
-        lambda first, last: mark_far(draft, links.indptr, links.indices, first, last, places, is_far), len(places)
-    )
+    over_ranges(lambda first, last: mark_far(draft, *links.table, first, last, places, is_far), len(places))
     return np.flatnonzero(is_far)
 
 

@@ -10,7 +10,7 @@ from ._kernels.planes import fit_planes
 from ._kernels.stars import delaunay_stars as stars_kernel
 from ._parallel import over_ranges
 from .neighbors import BoxTree, Neighborhoods
-from .typing import Floats, Indices, Points
+from .typing import Floats, Indices, Mask, Points
 
 STEEPEST = 0.8  # sine of the steepest neighbour against the tangent plane; steeper ones lie on another sheet
 FADING = 0.8  # the farthest neighbours have 4% of the weight of the nearest in a plane: they may lie on another sheet
@@ -204,9 +204,8 @@ def star_and_sides(points: ArrayLike, around: Neighborhoods, *, local: bool = Tr
     cloud = check_points(points)
     check_neighbors(around.indices, around.n_points, len(cloud))
     normal = normals(cloud, around, fading=FADING)
-    found, diameter, sides = _stars(cloud, normal, around, local=local)
-    reach = np.linalg.norm(cloud[around.indices[around.indptr[1:] - 1]] - cloud, axis=1)
-    short = np.flatnonzero(~np.asarray(found.is_open) & (diameter > reach))
+    found, is_short, sides = _stars(cloud, normal, around, local=local)
+    short = np.flatnonzero(is_short)
     wide = min(WIDER * int(around.sizes.max()), len(cloud) - 1)
     if len(short) == 0 or wide <= around.sizes.max():
         return found, sides
@@ -239,7 +238,7 @@ def _planes(cloud: Points, around: Neighborhoods, fading: float) -> tuple[Floats
     """Return the normals of the planes, and the height of each plane above its point."""
     normal, offset = np.empty_like(cloud), np.empty(len(cloud))
     over_ranges(
-        lambda first, last: fit_planes(cloud, around.indptr, around.indices, fading, first, last, normal, offset),
+        lambda first, last: fit_planes(cloud, *around.table, fading, first, last, normal, offset),
         len(cloud),
     )
     return normal, offset
@@ -247,21 +246,21 @@ def _planes(cloud: Points, around: Neighborhoods, fading: float) -> tuple[Floats
 
 def _stars(
     cloud: Points, normal: Floats, around: Neighborhoods, *, local: bool = True
-) -> tuple[Neighborhoods, Floats, Sides]:
-    """Find all stars; return the diameter of the largest circle of each, too, open or not."""
+) -> tuple[Neighborhoods, Mask, Sides]:
+    """Find all stars; tell, too, which are wider than their candidates reach."""
     n = len(cloud)
-    count, is_open, diameter = np.empty(n, np.int64), np.empty(n, np.bool_), np.empty(n)
+    count, is_open, is_short, width = np.empty(n, np.int64), np.empty(n, np.bool_), np.empty(n, np.bool_), np.empty(n)
     sides = Sides(np.empty(n), np.empty(n))
     parts: dict[int, tuple[Indices, Floats]] = {}
 
     def find(first: int, last: int) -> None:
         room = int(around.indptr[last] - around.indptr[first])
-        star, places = np.empty(room, around.indices.dtype), np.empty((room, 2))
-        where = cloud, normal, around.indptr, around.indices, STEEPEST, first, last
-        size = stars_kernel(*where, star, places, count, is_open, diameter, *sides)
-        parts[first] = star[:size].copy(), places[: size if local else 0].copy()
+        star, places = np.empty(room, np.uint32), np.empty((room, 2))
+        where = cloud, normal, *around.table, STEEPEST, first, last
+        size = stars_kernel(*where, star, places, count, is_open, is_short, width, *sides)
+        parts[first] = star[:size].view(np.int32).copy(), places[: size if local else 0].copy()
 
     over_ranges(find, n)
     indices, places = (np.concatenate([parts[first][k] for first in sorted(parts)]) for k in range(2))
-    indptr, width = np.concatenate([[0], np.cumsum(count)]), np.where(is_open, np.inf, 0.5 * diameter)
-    return Neighborhoods(indptr, indices, places if local else None, is_open, width), diameter, sides
+    indptr = np.concatenate([[0], np.cumsum(count)])
+    return Neighborhoods(indptr, indices, places if local else None, is_open, width), is_short, sides

@@ -247,7 +247,7 @@ def galerkin_rows(matrix, prolongation, restriction, first, last, mark, sizes, m
 
 @njit(cache=True, nogil=True)
 def add_row(prolongation, j, factor, row, begin, size, own, mark, columns, values):
-    """Add a multiple of row j of the interpolation to the row of a product from `begin`; return its size and diagonal."""
+    """Add a multiple of a row of the interpolation to the row of a product from `begin`; return size and diagonal."""
     p_indptr, p_indices, p_data = prolongation
     for t in range(p_indptr[j], p_indptr[j + 1]):
         column, value = p_indices[t], factor * p_data[t]

@@ -32,7 +32,7 @@ def pair_half_edges(corners, n_points, twin):
     for v in range(n_points):
         first[v + 2] += first[v + 1]
     # Half-edges bucketed by origin, their targets beside them, so that each search reads one short run of memory.
-    leaving, target = np.empty_like(corners), np.empty_like(corners)
+    leaving, target = np.empty_like(twin), np.empty_like(corners)
     for h in range(len(corners)):
         slot = first[corners[h] + 1]
         leaving[slot], target[slot] = h, corners[following(h)]

@@ -1,9 +1,12 @@
 """Which links between neighbours can be trusted."""
 
+import numpy as np
 from numba import njit
 
 from .drafts import first_around, next_around
 from .half_edges import following, preceding
+
+RING = 32  # points that are kept at hand
 
 
 @njit(cache=True, nogil=True, inline="always")
@@ -37,11 +40,21 @@ def agreement(indptr, indices, is_open, first, last, agrees):
 @njit(cache=True, nogil=True)
 def mark_far(draft, indptr, indices, first, last, points, is_far):
     """Mark both ends of the links of points[first..last] whose ends are more than two edges apart on a mesh."""
+    ring = np.empty(RING, np.int64)
     for place in range(first, last):
-        i = points[place]
+        i, size = points[place], 0
+        start = h = first_around(draft, i)
+        while h >= 0 and size + 2 <= RING:
+            ring[size], ring[size + 1] = draft.corners[following(h)], draft.corners[preceding(h)]
+            size += 2
+            h = next_around(draft, h)
+            if h == start:
+                break
         for e in range(indptr[i], indptr[i + 1]):
-            j = indices[e]
-            if not is_around(draft, i, j) and not is_beyond(draft, i, j):
+            j, is_beside = indices[e], False
+            for k in range(size):
+                is_beside |= ring[k] == j
+            if not is_beside and not is_around(draft, i, j) and not is_beyond(draft, i, j):
                 is_far[i] = is_far[j] = True
 
 

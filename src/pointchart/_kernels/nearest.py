@@ -12,6 +12,7 @@ from numba import njit
 
 LEAF = 8
 DEEPEST = 64  # levels of a tree
+SLACK = 1.0 + 1e-9  # for rounding
 
 
 @njit(cache=True, nogil=True)
@@ -39,14 +40,19 @@ def square_to_box(low, high, node, x, y, z):
 
 
 @njit(cache=True, nogil=True)
-def find_nearest(points, low, high, queries, first, last, found, squares):
-    """Write the nearest other points of points queries[first..last], nearest first, and their squared distances."""
+def find_nearest(points, low, high, queries, found, squares):
+    """Write the nearest other points of some points, nearest first, and their squared distances.
+
+    As far from a point as the farthest found for the one before it, plus the way between the two, there are enough.
+    """
     n, leaves, most = len(points), len(low) // 2, found.shape[1]
     stack, square = np.empty(DEEPEST, np.int64), np.empty(DEEPEST)
-    for place in range(first, last):
+    before, reach = 0, np.inf
+    for place in range(len(queries)):
         i, row, far = queries[place], found[place], squares[place]
         x, y, z = points[i, 0], points[i, 1], points[i, 2]
-        count, worst = 0, np.inf
+        way = math.sqrt((x - points[before, 0]) ** 2 + (y - points[before, 1]) ** 2 + (z - points[before, 2]) ** 2)
+        count, worst = 0, (reach + way) ** 2 * SLACK
         subtree = path = leaves + i // LEAF
         while True:
             size, stack[0], square[0] = 1, subtree, square_to_box(low, high, subtree, x, y, z)
@@ -84,6 +90,7 @@ def find_nearest(points, low, high, queries, first, last, found, squares):
             if path == 1:
                 break
             subtree, path = path ^ 1, path // 2
+        before, reach = np.int64(i), math.sqrt(far[most - 1])
 
 
 @njit(cache=True, nogil=True)

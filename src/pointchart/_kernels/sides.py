@@ -15,7 +15,7 @@ def survey_sides(points, normals, indptr, indices, steepest, first, last, angle,
     """
     most = 1
     for i in range(first, last):
-        most = max(most, indptr[i + 1] - indptr[i])
+        most = max(most, np.int64(indptr[i + 1] - indptr[i]))
     name, x, y, turns = np.empty(most, np.int64), np.empty(most), np.empty(most), np.empty(most)
     for i in range(first, last):
         row = indices[indptr[i] : indptr[i + 1]]

@@ -153,16 +153,31 @@ def circumdiameter(ax, ay, bx, by):
 
 @njit(cache=True, nogil=True)
 def delaunay_stars(
-    points, normals, indptr, indices, steepest, first, last, star, local, count, is_open, diameter, angle, offset
+    points,
+    normals,
+    indptr,
+    indices,
+    steepest,
+    first,
+    last,
+    star,
+    local,
+    count,
+    is_open,
+    is_short,
+    width,
+    angle,
+    offset,
 ):
     """Find the Delaunay neighbours of points first..last among their candidates; return how many there are in all.
 
     Stars follow each other: names in `star`, planar positions in `local`, anticlockwise, `count[i]` of them for point
-    i. `diameter` is that of its largest circumcircle; `angle` and `offset` tell of a boundary (see `measure_sides`).
+    i. `width` is the largest circumradius, infinite for an open star; one is short whose circles reach beyond the last
+    of its candidates. `angle` and `offset` tell of a boundary (see `measure_sides`).
     """
     most = 1
     for i in range(first, last):
-        most = max(most, indptr[i + 1] - indptr[i])
+        most = max(most, np.int64(indptr[i + 1] - indptr[i]))
     name, stack = np.empty(most, np.int64), np.empty(most + 2, np.int64)
     x, y, turns, p, q = np.empty(most), np.empty(most), np.empty(most), np.empty(most), np.empty(most)
     total = 0
@@ -179,11 +194,16 @@ def delaunay_stars(
                 if x[k] ** 2 + y[k] ** 2 < x[start] ** 2 + y[start] ** 2:
                     start = k
         size = hull_of_inverses(x, y, n, start, is_open[i], p, q, stack) if n > 0 else 0
-        count[i], diameter[i] = size, 0.0
+        count[i], diameter = size, 0.0
         for s in range(size):
             k, m = stack[s], stack[s + 1 if s + 1 < size else 0]
             star[total], local[total, 0], local[total, 1] = name[k], x[k], y[k]
             total += 1
             if s + 1 < size or not is_open[i]:
-                diameter[i] = max(diameter[i], circumdiameter(x[k], y[k], x[m], y[m]))
+                diameter = max(diameter, circumdiameter(x[k], y[k], x[m], y[m]))
+        square = 0.0
+        for k in range(3 if len(row) > 0 else 0):
+            square += (points[row[-1], k] - points[i, k]) ** 2
+        is_short[i] = not is_open[i] and diameter > math.sqrt(square)
+        width[i] = np.inf if is_open[i] else 0.5 * diameter
     return total

@@ -8,6 +8,7 @@ from numpy.typing import ArrayLike
 from .._check import check_neighbors, check_points
 from .._kernels.rims import add_corner_angles
 from .._kernels.sides import survey_sides
+from .._kernels.unsigned import unsigned
 from .._parallel import over_ranges
 from ..errors import InputError
 from ..neighbors import Neighborhoods
@@ -189,7 +190,7 @@ def corner_angles(points: Points, triangles: Triangles) -> Floats:
     array([90., 45., 45.])
     """
     total = np.zeros(len(points))
-    add_corner_angles(points, triangles, total)
+    add_corner_angles(points, unsigned(np.asarray(triangles, np.int32)), total)
     return total
 
 
@@ -197,7 +198,7 @@ def _sides(cloud: Points, around: Neighborhoods) -> Sides:
     check_neighbors(around.indices, around.n_points, len(cloud))
     normal, sides = normals(cloud, around, fading=FADING), Sides(np.empty(len(cloud)), np.empty(len(cloud)))
     over_ranges(
-        lambda first, last: survey_sides(cloud, normal, around.indptr, around.indices, STEEPEST, first, last, *sides),
+        lambda first, last: survey_sides(cloud, normal, *around.table, STEEPEST, first, last, *sides),
         len(cloud),
     )
     return sides

@@ -102,8 +102,9 @@ def find_boundary(points: ArrayLike, *, vicinity: Vicinity | None = None) -> Fou
     check_one_piece(cloud, near.around, near.spacing)
     agreed = agreed_patchwork(near.smoothed, near.star, near.spacing)
     scores = boundary_scores(near.smoothed, near.around, near.star, agreed.triangles, near.spacing, sides=near.sides)
-    surface = tightened(near.smoothed, agreed, scores.is_boundary)
-    found = [measure(cloud, loop, scores.is_boundary) for loop in rims(surface)]
+    is_boundary = scores.is_boundary
+    surface = tightened(near.smoothed, agreed, is_boundary)
+    found = [measure(cloud, loop, is_boundary) for loop in rims(surface)]
     scale = float(np.median(near.spacing))
     good = [c for c in found if c.share >= LEAST_SHARE and c.length >= SHORTEST * scale]
     if not good:

@@ -64,10 +64,10 @@ class Patchwork:
         number = np.cumsum(~dropped, dtype=np.int32) - 1
         sides = self.sides.copy()
         close_up(sides, dropped, number)
-        kept = ~dropped
+        kept = np.flatnonzero(~dropped)
         # A part is named after a triangle that may be gone; any number that tells parts apart will do.
-        part = self.part[kept]
-        return replace(self, triangles=self.triangles[kept], edge_of=self.edge_of[kept], sides=sides, part=part)
+        triangles, edge_of, part = (rows.take(kept, axis=0) for rows in (self.triangles, self.edge_of, self.part))
+        return replace(self, triangles=triangles, edge_of=edge_of, sides=sides, part=part)
 
     @property
     def largest(self) -> Mask:
