@@ -5,18 +5,23 @@ import pkgutil
 import numpy as np
 import pytest
 import scipy.sparse as sp
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from strategies import integer_sets, seeds
 
 from pointchart import _kernels
 from pointchart._exact import orientation_signs
 from pointchart._kernels import assemble, coarsen, constrain, drafts, planes, recover, relocate, rims, sides, stars
 from pointchart._kernels import half_edges as half_edge_kernels
+from pointchart._kernels import multigrid as steps
 from pointchart._kernels import nearest as trees
+from pointchart._kernels.unsigned import unsigned
 from pointchart.boundary import patchwork
 from pointchart.fit import fit_radial, interpolate_clough_tocher
 from pointchart.intersections import box_tree
 from pointchart.mesh import half_edges, one_rings, start_draft
-from pointchart.multigrid import _levels, _split
-from pointchart.neighbors import nearest, spacing
+from pointchart.multigrid import _split
+from pointchart.neighbors import BoxTree, Neighborhoods, nearest, spacing
 from pointchart.shapes import disc, moebius, relief
 from pointchart.stars import delaunay_star, normals
 from pointchart.triangulate import triangulate
@@ -52,6 +57,16 @@ def bools(n):
 
 def int32s(n):
     return np.zeros(n, np.int32)
+
+
+def light(*arrays):
+    """Return arrays as kernels take them: integers unsigned, other numbers as they are."""
+    return tuple(unsigned(array) if array.dtype.kind == "i" else array for array in arrays)
+
+
+def in_rows(matrix):
+    """Return compressed rows in the types that the multigrid levels have."""
+    return unsigned(matrix.indptr.astype(np.int64)), unsigned(matrix.indices), matrix.data.astype(np.float32)
 
 
 M = len(SHAPE.triangles)
@@ -129,27 +144,28 @@ def joining(t):
 
 LINE = sp.diags_array([-1.0, 2.1, -1.2], offsets=[-1, 0, 1], shape=(15, 15))
 SYSTEM = sp.csr_array(sp.kron(LINE, sp.eye_array(15)) + sp.kron(sp.eye_array(15), LINE))
-COMPRESSED = SYSTEM.indptr, SYSTEM.indices, SYSTEM.data
-LEVELS = _levels(SYSTEM)
-LEVELS = LEVELS._replace(
-    indices=LEVELS.indices[: LEVELS.indptr[-1]],
-    data=LEVELS.data[: LEVELS.indptr[-1]],
-    p_indices=LEVELS.p_indices[: LEVELS.p_indptr[-1]],
-    p_data=LEVELS.p_data[: LEVELS.p_indptr[-1]],
-)
 FINE = _split(SYSTEM)
 STRONG = bools(len(FINE.data))
 coarsen.mark_strong.py_func(FINE.indptr, FINE.data, STRONG)
 DEPENDENT = ints(226), int32s(len(STRONG))
 coarsen.reverse_strong.py_func(FINE.indptr, FINE.indices, STRONG, *DEPENDENT)
 COARSE = int32s(225)
-N_COARSE = coarsen.choose_coarse.py_func(FINE.indptr, FINE.indices, STRONG, *DEPENDENT, COARSE)
+N_COARSE = coarsen.choose_coarse.py_func(FINE.indptr, FINE.indices, *DEPENDENT, STRONG, COARSE)
 TO_FINE = ints(226), int32s(len(STRONG)), np.zeros(len(STRONG))
 N_SHARES = coarsen.interpolate.py_func(*FINE[:1], *FINE[2:], STRONG, COARSE, *TO_FINE)
 TO_FINE = TO_FINE[0], TO_FINE[1][:N_SHARES].copy(), TO_FINE[2][:N_SHARES].copy()
 TO_COARSE = ints(N_COARSE + 1), int32s(N_SHARES), np.zeros(N_SHARES)
 coarsen.transpose.py_func(*TO_FINE, *TO_COARSE)
-PAIR = np.random.default_rng(6).normal(size=(225, 2))
+MARK = int32s(N_COARSE) - 1
+
+# A system of more rows than two blocks, and a way to it from half as many.
+N_LONG = 2 * steps.BLOCK + 50
+BAND = sp.csr_array(sp.diags_array([-0.3, -0.2, 1.1, -0.2, -0.3], offsets=[-40, -1, 0, 2, 2100], shape=(N_LONG,) * 2))
+HALVED = in_rows(sp.csr_array(sp.diags_array([0.6, 0.4], offsets=[-50, 0], shape=(N_LONG, N_LONG // 2))))
+PAIR = np.random.default_rng(6).normal(size=(N_LONG, 2))
+SINGLES = PAIR.astype(np.float32)
+ROWS = 5, N_LONG - 3
+SUMS = len(range(0, N_LONG, steps.BLOCK)), 4
 
 LOW, HIGH = np.zeros((2, 16, 3))
 trees.bound_boxes.py_func(SHAPE.points, LOW, HIGH)
@@ -198,8 +214,10 @@ def thinned_out():
     return thin, n, ASTRAY, h, one, drafts.next_around.py_func(thin, one)
 
 
-def two_vectors():
-    return np.zeros((LEVELS.places[-1], 2)), np.resize(PAIR, (LEVELS.places[-1], 2))
+def swept():
+    """Return the rows of the long system without their diagonal, and its inverse, as sweeps take them."""
+    rows = _split(BAND)
+    return *light(*rows[:3]), rows.data.astype(np.float32), (1.0 / rows.diagonal).astype(np.float32)
 
 
 CASES = {
@@ -299,14 +317,26 @@ CASES = {
         1,
         np.zeros((10, 3)),
     ),
-    "coarsen.choose_coarse": lambda: (FINE.indptr, FINE.indices, STRONG, *DEPENDENT, int32s(225)),
+    "coarsen.choose_coarse": lambda: (*light(FINE.indptr, FINE.indices, *DEPENDENT), STRONG, int32s(225)),
+    "coarsen.add_row": lambda: (
+        light(*TO_FINE),
+        int(np.flatnonzero(COARSE < 0)[5]),
+        0.7,
+        int(TO_FINE[1][TO_FINE[0][np.flatnonzero(COARSE < 0)[5]]]),
+        2,
+        3,
+        0.1,
+        MARK.copy(),
+        int32s(9),
+        np.zeros(9),
+    ),
     "coarsen.galerkin_rows": lambda: (
-        (FINE.indptr, FINE.indices, FINE.data, FINE.diagonal),
-        TO_FINE,
-        TO_COARSE,
+        light(FINE.indptr, FINE.indices, FINE.data, FINE.diagonal),
+        light(*TO_FINE),
+        light(*TO_COARSE),
         3,
         N_COARSE,
-        int32s(N_COARSE) - 1,
+        MARK.copy(),
         ints(N_COARSE),
         ints(N_COARSE),
         np.zeros(N_COARSE),
@@ -328,7 +358,7 @@ CASES = {
     ),
     "coarsen.mark_strong": lambda: (FINE.indptr, np.sin(np.arange(len(FINE.data))), bools(len(FINE.data))),
     "coarsen.middle_of": lambda: (np.array([7, 1, 4, 6, 0], np.int32), 1, 4, 5),
-    "coarsen.most_entries": lambda: (FINE.indptr, TO_FINE[0], FINE.indices, *TO_COARSE[:2], 3, N_COARSE),
+    "coarsen.most_entries": lambda: (*light(FINE.indptr, TO_FINE[0], FINE.indices, *TO_COARSE[:2]), 3, N_COARSE),
     "coarsen.pull": lambda: (np.array([-1, 2], np.int32), np.array([1, -1, 0]), np.array([2, 0, -1]), 2, 1),
     "coarsen.pull from the middle": lambda: (
         np.array([-1, 2], np.int32),
@@ -460,7 +490,7 @@ CASES = {
     ),
     "half_edges.preceding": lambda: (3,),
     "half_edges.pair_half_edges": lambda: (
-        np.r_[EDGES.origins, EDGES.origins[:6]],
+        unsigned(np.r_[EDGES.origins, EDGES.origins[:6]]),
         N,
         int32s(3 * M + 6),
     ),
@@ -495,8 +525,7 @@ CASES = {
     "links.is_beyond an inner point": lambda: (draft(), ASTRAY, int(SHAPE.boundary[1])),
     "links.mark_far": lambda: (
         mixed_draft(),
-        AROUND.indptr,
-        AROUND.indices,
+        *AROUND.table,
         2,
         20,
         np.arange(N, dtype=np.int32)[::-2].copy(),
@@ -520,40 +549,55 @@ CASES = {
     ),
     "morton.morton_keys": lambda: (SHAPE.points, CORNER, (2**21 - 1) / WIDTH, 21, 3, N, ints(N)),
     "morton.morton_keys in a plane": lambda: (SHAPE.uv, SHAPE.uv.min(axis=0), (2**31 - 1) / 2.0, 31, 0, N, ints(N)),
-    "multigrid.advance": lambda: (PAIR.copy(), PAIR[::-1].copy(), np.array([0.3, -2.0]), PAIR + 1, PAIR - 1),
-    "multigrid.ascend": lambda: (LEVELS, 0, two_vectors()[1], two_vectors()[1]),
-    "multigrid.bicgstab_pair": lambda: (*COMPRESSED, LEVELS, PAIR * [1, 0], PAIR * [0, 1], 1e-9, 30),
-    "multigrid.cycle": lambda: (LEVELS, *two_vectors()),
-    "multigrid.descend": lambda: (LEVELS, 0, *two_vectors()),
-    "multigrid.dots": lambda: (PAIR, PAIR[::-1].copy()),
-    "multigrid.multiply": lambda: (*COMPRESSED, PAIR, np.zeros((225, 2))),
-    "multigrid.quotients": lambda: (np.array([1.0, 2.0]), np.array([3.0, 0.0]), np.array([-1, -1])),
+    "multigrid.add_products": lambda: (np.ones(SUMS), 1, PAIR, PAIR[::-1].copy(), 7),
+    "multigrid.advance": lambda: (
+        PAIR.copy(),
+        PAIR[::-1].copy(),
+        np.array([0.3, -2.0]),
+        SINGLES + 1,
+        PAIR - 1,
+        2 * PAIR,
+        np.zeros(SUMS),
+        0,
+        N_LONG,
+    ),
+    "multigrid.find_rest": lambda: (*swept()[:4], SINGLES, np.zeros_like(SINGLES), *ROWS),
+    "multigrid.multiply": lambda: (
+        *light(BAND.indptr, BAND.indices, BAND.data),
+        SINGLES,
+        np.zeros_like(PAIR),
+        PAIR + 1,
+        np.zeros(SUMS),
+        0,
+        N_LONG,
+    ),
+    "multigrid.prolong": lambda: (*HALVED, SINGLES[::2].copy(), SINGLES.copy(), *ROWS),
+    "multigrid.redirect": lambda: (
+        PAIR.copy(),
+        PAIR[::-1].copy(),
+        PAIR - 1,
+        np.array([0.3, -2.0]),
+        np.array([0.5, 0.0]),
+        *ROWS,
+    ),
+    "multigrid.restrict": lambda: (*in_rows(BAND), SINGLES, np.zeros_like(SINGLES), *ROWS),
+    "multigrid.sweep_backward": lambda: (*swept(), SINGLES, SINGLES[::-1].copy(), np.zeros_like(SINGLES), *ROWS),
+    "multigrid.sweep_forward": lambda: (*swept(), SINGLES, np.zeros_like(SINGLES), *ROWS),
     "nearest.bound_boxes": lambda: (SHAPE.points, np.zeros((16, 3)), np.zeros((16, 3))),
     "nearest.find_nearest": lambda: (
         SHAPE.points,
         LOW,
         HIGH,
-        np.arange(N, dtype=np.int32)[::-1].copy(),
-        1,
-        N,
-        int32s((N, 9)),
+        np.arange(N, dtype=np.uint32)[::-1].copy(),
+        np.zeros((N, 9), np.uint32),
         np.zeros((N, 9)),
     ),
-    "nearest.middle_distances": lambda: (SHAPE.points, AROUND.indptr, AROUND.indices, 3, 4, 0, N, np.zeros(N)),
+    "nearest.middle_distances": lambda: (SHAPE.points, *AROUND.table, 3, 4, 0, N, np.zeros(N)),
     "nearest.square_to_box": lambda: (LOW, HIGH, 9, 0.1, -0.2, 2.0),
     "peel.peel": lambda: (EDGES.origins, EDGES.twins, SUCCESSOR, ints(len(EDGES.origins)), bools(len(SHAPE.triangles))),
     "planes.smallest_eigenvector": lambda: (3.0, 0.2, 0.1, 2.0, -0.3, 1.0),
     "planes.tangent_frame": lambda: (0.48, 0.6, -0.64),
-    "planes.fit_planes": lambda: (
-        SHAPE.points,
-        AROUND.indptr,
-        AROUND.indices,
-        0.8,
-        0,
-        N,
-        np.zeros((N, 3)),
-        np.zeros(N),
-    ),
+    "planes.fit_planes": lambda: (SHAPE.points, *AROUND.table, 0.8, 0, N, np.zeros((N, 3)), np.zeros(N)),
     "radial.add_product": lambda: (np.arange(6.0), np.arange(24.0).reshape(6, 4), np.ones((6, 4))),
     "radial.divide": lambda: (np.arange(1.0, 25.0).reshape(6, 4),),
     "radial.evaluate": lambda: (
@@ -614,7 +658,7 @@ CASES = {
     ),
     "relocate.take_out": lambda: thinned_out(),
     "relocate.thin_out": lambda: (draft(), ASTRAY, drafts.inner_degree.py_func(draft(), ASTRAY)),
-    "rims.add_corner_angles": lambda: (SHAPE.points, RAGGED.triangles, np.zeros(N)),
+    "rims.add_corner_angles": lambda: (SHAPE.points, unsigned(RAGGED.triangles), np.zeros(N)),
     "rims.circumradius": lambda: (SHAPE.points, 0, 1, 2),
     "rims.close_up": lambda: (
         RAGGED.sides.copy(),
@@ -679,8 +723,7 @@ CASES = {
     "sides.survey_sides": lambda: (
         SHAPE.points,
         NORMALS,
-        AROUND.indptr,
-        AROUND.indices,
+        *AROUND.table,
         0.8,
         0,
         N,
@@ -698,7 +741,7 @@ CASES = {
         SHAPE.points,
         NORMALS[4],
         4,
-        AROUND.indices[36:45],
+        AROUND.table[1][36:45],
         0.8,
         ints(9),
         np.zeros(9),
@@ -712,14 +755,14 @@ CASES = {
     "stars.delaunay_stars": lambda: (
         SHAPE.points,
         NORMALS,
-        AROUND.indptr,
-        AROUND.indices,
+        *AROUND.table,
         0.8,
         0,
         N,
-        ints(9 * N),
+        np.zeros(9 * N, np.uint32),
         np.zeros((9 * N, 2)),
         ints(N),
+        bools(N),
         bools(N),
         np.zeros(N),
         np.zeros(N),
@@ -764,7 +807,9 @@ def test_a_compiled_kernel_equals_its_python_function(name):
     answers = kernel(*compiled), kernel.py_func(*plain)
     assert np.allclose(*map(numbers, answers), rtol=1e-12, atol=1e-14, equal_nan=True)
     for one, other in zip(arrays(compiled), arrays(plain), strict=True):
-        assert np.allclose(one, other, rtol=1e-12, atol=1e-14)
+        # Compiled sums of single numbers are of double ones.
+        rtol, atol = (1e-6, 1e-7) if one.dtype == np.float32 else (1e-12, 1e-14)
+        assert np.allclose(one, other, rtol=rtol, atol=atol)
 
 
 def numbers(answer):
@@ -814,7 +859,7 @@ def test_following_and_preceding_half_edges_are_inverse(h):
 @pytest.mark.parametrize("fading", [0.0, 0.5, 0.8])
 def test_fitted_planes_are_those_of_the_last_singular_vectors_of_the_weighted_neighbours(fading):
     normals, offsets = np.empty((N, 3)), np.empty(N)
-    planes.fit_planes(SHAPE.points, AROUND.indptr, AROUND.indices, fading, 0, N, normals, offsets)
+    planes.fit_planes(SHAPE.points, *AROUND.table, fading, 0, N, normals, offsets)
     for i in range(N):
         near = SHAPE.points[np.r_[i, AROUND.indices[AROUND.indptr[i] : AROUND.indptr[i + 1]]]]
         square = ((near - near[0]) ** 2).sum(axis=1)
@@ -872,3 +917,98 @@ def test_a_point_that_has_no_flat_neighbour_is_free_all_round():
     up = np.array([[0.0, 0, 1]])
     sides.survey_sides(points, up, np.array([0, 2]), np.array([1, 2]), 0.8, 0, 1, angle, offset)
     assert (angle[0], offset[0]) == (2 * np.pi, 1.0)
+
+
+# Unsigned indices
+
+
+@pytest.mark.parametrize(("kind", "wanted"), [(np.int32, np.uint32), (np.int64, np.uint64)])
+def test_an_unsigned_view_shares_memory_and_keeps_values(kind, wanted):
+    signed = np.array([0, 7, np.iinfo(kind).max], kind)
+    for array in (signed, signed[::2], signed[:0]):
+        view = unsigned(array)
+        assert view.dtype == wanted
+        assert view.tolist() == array.tolist()
+    unsigned(signed)[1] = 5
+    assert signed[1] == 5
+
+
+@pytest.mark.parametrize("kind", [np.uint32, np.uint64, np.bool_, np.float64])
+def test_what_has_no_sign_to_lose_stays_as_it_is(kind):
+    array = np.arange(3).astype(kind)
+    assert unsigned(array).dtype == array.dtype
+    assert np.shares_memory(unsigned(array), array)
+
+
+@pytest.mark.parametrize("kind", [np.int32, np.int64, np.uint32])
+def test_a_table_has_the_rows_of_the_neighbourhoods_in_the_same_types_always(kind):
+    around = Neighborhoods(AROUND.indptr.astype(kind), AROUND.indices.astype(kind))
+    indptr, indices = around.table
+    assert (indptr.dtype, indices.dtype) == (np.uint64, np.uint32)
+    assert np.array_equal(indptr, AROUND.indptr)
+    assert np.array_equal(indices, AROUND.indices)
+
+
+# The nearest
+
+
+def check_nearest(points, k, queries=None):
+    """Compare distances with those of all points, as points at the same distance may come in any order."""
+    found = BoxTree(points).nearest(k, queries)
+    asked = np.arange(len(points)) if queries is None else queries
+    square = ((points[:, None] - points[None]) ** 2).sum(axis=2)
+    np.fill_diagonal(square, np.inf)
+    assert found.shape == (len(asked), min(k, len(points) - 1))
+    assert all(len(set(row)) == len(row) for row in found.tolist())
+    far = np.take_along_axis(square[asked], found, axis=1)
+    assert np.allclose(far, np.sort(square[asked], axis=1)[:, : found.shape[1]], rtol=1e-12, atol=0)
+
+
+@settings(max_examples=40)
+@given(st.integers(2, 70), st.integers(1, 80), seeds)
+def test_the_nearest_are_found_where_each_point_is_far_from_the_one_before(n, k, seed):
+    rng = np.random.default_rng(seed)
+    points = rng.normal(size=(n, 3)) * 10.0 ** rng.uniform(-3, 3, (n, 1))
+    check_nearest(points, k)
+    check_nearest(points, k, rng.integers(0, n, 2 * n))
+
+
+@settings(max_examples=40)
+@given(integer_sets(), st.integers(1, 30), seeds)
+def test_the_nearest_are_found_where_many_are_at_one_distance(cells, k, seed):
+    rng = np.random.default_rng(seed)
+    check_nearest(np.c_[rng.permutation(cells), np.zeros(len(cells))], k, rng.integers(0, len(cells), 40))
+
+
+@settings(max_examples=40)
+@given(st.integers(1, 20), st.integers(1, 20), st.integers(1, 25), st.floats(2, 9), seeds)
+def test_the_nearest_are_found_in_clusters_far_apart(n_here, n_there, k, exponent, seed):
+    rng = np.random.default_rng(seed)
+    here, there = rng.random((n_here, 3)), rng.random((n_there, 3)) + 10.0**exponent
+    points = np.r_[here, there]
+    for cloud in (points, rng.permutation(points)):
+        check_nearest(cloud, k)
+        check_nearest(cloud, k, rng.permutation(len(cloud)))
+
+
+@pytest.mark.parametrize("k", [1, 2, 5, 40])
+def test_points_that_coincide_are_the_nearest_of_each_other_though_asked_for_in_turn(k):
+    check_nearest(np.repeat(SHAPE.points[:12], 3, axis=0), k)
+    check_nearest(SHAPE.points[:12], k, np.repeat(np.arange(12), 2))
+
+
+# Stars
+
+
+@pytest.mark.parametrize("k", [4, 6, 9])
+def test_a_star_is_short_exactly_if_it_is_closed_and_a_circle_reaches_beyond_the_last_candidate(k):
+    around = nearest(SHAPE.points, k)
+    star, local, count = np.zeros(k * N, np.uint32), np.zeros((k * N, 2)), ints(N)
+    is_open, is_short, (width, angle, offset) = bools(N), bools(N), np.zeros((3, N))
+    where = SHAPE.points, normals(SHAPE.points, around), *around.table, 0.8, 0, N
+    stars.delaunay_stars(*where, star, local, count, is_open, is_short, width, angle, offset)
+    last = SHAPE.points[around.indices[around.indptr[1:] - 1]]
+    reach = np.linalg.norm(last - SHAPE.points, axis=1)
+    assert np.array_equal(np.isinf(width), is_open)
+    assert np.array_equal(is_short, ~is_open & (2 * width > reach))
+    assert is_short.any()

@@ -5,9 +5,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from strategies import planar_discs, seeds
 
+from pointchart._kernels import multigrid as kernels
+from pointchart._kernels.unsigned import unsigned
+from pointchart._parallel import on_threads
 from pointchart.errors import SolveError
 from pointchart.mesh import one_rings
-from pointchart.multigrid import MOST_ITERATIONS, TOLERANCE, multigrid
+from pointchart.multigrid import MOST_ITERATIONS, TOLERANCE, _in_singles, _split, multigrid
 from pointchart.shapes import disc, relief
 from pointchart.solve import direct, solve_fixed
 from pointchart.weights import mean_value
@@ -104,6 +107,16 @@ def test_powers_of_two_of_the_right_side_scale_the_solution_exactly():
     assert np.array_equal(multigrid(left, 2.0**20 * right)[0], 2.0**20 * multigrid(left, right)[0])
 
 
+@pytest.mark.parametrize("exponents", [[60, 60], [-60, -60], [60, -60]])
+def test_right_sides_may_be_large_or_small_each_on_its_own(exponents):
+    left, right = random_system(3, 900)
+    units = 10.0 ** np.array(exponents)
+    found, plain = multigrid(left, units * right)[0], multigrid(left, right)[0]
+    assert np.abs(found / units - plain).max() < 1e-10 * np.abs(plain).max()
+    units = 2.0 ** np.array(exponents)
+    assert np.array_equal(multigrid(left, units * right)[0], units * plain)
+
+
 @pytest.mark.parametrize("unit", [2.0**-60, 2.0**60])
 def test_the_unit_of_the_equations_does_not_matter(unit):
     left, right = random_system(3, 900)
@@ -130,6 +143,76 @@ def test_the_system_and_the_start_are_left_as_they_are():
     assert all(map(np.array_equal, before, (left.data, left.indices, left.indptr, right, start)))
 
 
+# Threads
+
+
+def test_the_solution_is_the_same_to_the_last_bit_on_any_number_of_threads():
+    left = laplacian(102)
+    right = np.random.default_rng(0).normal(size=(102**2, 3))
+    assert len(right) > 5 * kernels.BLOCK
+    answers = []
+    for threads in (1, 2, 3):
+        with on_threads(threads):
+            answers.append(multigrid(left, right, tolerance=1e-8))
+    assert all(np.array_equal(solution, answers[0][0]) for solution, _ in answers)
+    assert all(counts == answers[0][1] for _, counts in answers)
+
+
+def swept(left, known, n_blocks, order):
+    """Sweep forwards and backwards over ranges of blocks in some order; return what is found, left over and better."""
+    rows, n = _in_singles(_split(left)), len(known)
+    found, rest, better = (np.full_like(known, np.nan) for _ in range(3))
+    ranges = [(first, min(first + n_blocks * kernels.BLOCK, n)) for first in range(0, n, n_blocks * kernels.BLOCK)]
+    for kernel, arrays in (
+        (kernels.sweep_forward, (*rows, known, found)),
+        (kernels.find_rest, (*rows[:4], found, rest)),
+        (kernels.sweep_backward, (*rows, known, found, better)),
+    ):
+        for k in order.permutation(len(ranges)):
+            kernel(*arrays, *ranges[k])
+    return found, rest, better
+
+
+@pytest.fixture(scope="module")
+def long_system():
+    left, right = random_system(11, 3 * kernels.BLOCK + 100)
+    return left, right.astype(np.float32)
+
+
+@pytest.mark.parametrize("n_blocks", [1, 2])
+def test_blocks_of_rows_are_swept_in_any_order_with_the_same_result(long_system, n_blocks):
+    whole = swept(*long_system, 4, np.random.default_rng(0))
+    parts = swept(*long_system, n_blocks, np.random.default_rng(1))
+    assert all(map(np.array_equal, whole, parts))
+
+
+def test_what_a_sweep_leaves_of_the_right_side_is_the_residual(long_system):
+    left, right = long_system
+    found, rest, better = swept(left, right, 1, np.random.default_rng(0))
+    assert np.abs(rest - (right - left @ found)).max() < 1e-5 * np.abs(right).max()
+    assert (residuals(left, right, better) < residuals(left, right, found)).all()
+
+
+def test_a_sweep_solves_a_triangular_system_of_one_block():
+    left, right = random_system(12, kernels.BLOCK)
+    for matrix, k in ((sp.csr_array(sp.tril(left)), 0), (sp.csr_array(sp.triu(left)), 2)):
+        answer = swept(matrix, right.astype(np.float32), 1, np.random.default_rng(0))[k]
+        assert residuals(matrix, right, answer).max() < 1e-5
+
+
+def test_sums_of_a_product_are_those_of_its_blocks(long_system):
+    left, right = long_system
+    n_rows = len(right)
+    vector, other, product = right.astype(np.float64), np.cos(right), np.zeros(right.shape)
+    sums = np.full((-(-n_rows // kernels.BLOCK), 4), np.nan)
+    rows = unsigned(left.indptr), unsigned(left.indices), left.data
+    for first in range(0, n_rows, kernels.BLOCK):
+        kernels.multiply(*rows, vector, product, other, sums, first, min(first + kernels.BLOCK, n_rows))
+    assert np.allclose(product, left @ vector, rtol=0, atol=1e-12)
+    expected = np.r_[(other * product).sum(axis=0), (product * product).sum(axis=0)]
+    assert np.allclose(sums.sum(axis=0), expected, rtol=1e-9)
+
+
 # Residual and iterations
 
 
@@ -151,6 +234,14 @@ def test_a_start_that_is_the_solution_takes_no_iteration():
     again, counts = multigrid(left, right, start=solution)
     assert counts == (0, 0)
     assert np.array_equal(again, solution)
+
+
+def test_the_nearer_the_start_is_to_the_solution_the_fewer_iterations_are_left():
+    left, right = random_system(8, 3000)
+    rough = multigrid(left, right, tolerance=1e-6)[0]
+    finer = multigrid(left, right, tolerance=1e-9, start=rough)[0]
+    counts = [max(multigrid(left, right, start=start)[1]) for start in (None, rough, finer)]
+    assert counts[0] > counts[1] > counts[2] > 0
 
 
 def test_where_the_right_side_is_zero_so_is_the_solution_at_once():

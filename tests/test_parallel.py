@@ -1,12 +1,15 @@
 import math
 import os
+from threading import Barrier
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 from threadpoolctl import threadpool_info
 
 from pointchart import _parallel, nearest, shapes
-from pointchart._parallel import core_quota, n_threads, on_threads, over_ranges
+from pointchart._parallel import FEWEST, Team, core_quota, n_threads, on_threads, over_ranges
 
 
 @pytest.fixture
@@ -81,3 +84,49 @@ def test_results_do_not_depend_on_the_number_of_threads():
     with on_threads(4):
         together = nearest(points, 8)
     assert np.array_equal(alone.indices, together.indices)
+
+
+# Teams
+
+
+@settings(max_examples=40)
+@given(st.lists(st.integers(0, 500), min_size=1, max_size=4), st.integers(1, 60), st.integers(1, 6))
+def test_a_team_covers_all_once_in_whole_blocks_of_which_no_thread_but_the_last_has_few(lengths, block, threads):
+    with on_threads(threads), Team() as team:
+        for n in lengths:
+            seen = []
+            team(n, block, lambda first, last, seen=seen: seen.append((first, last)))
+            seen.sort()
+            assert [i for first, last in seen for i in range(first, last)] == list(range(n))
+            assert len(seen) <= threads
+            assert all(first % block == 0 for first, _ in seen)
+            assert all(last - first >= FEWEST * block for first, last in seen[:-1])
+
+
+def test_a_team_works_on_as_many_threads_as_are_given():
+    together = Barrier(3, timeout=60)
+    with on_threads(3), Team() as team:
+        team(3 * FEWEST, 1, lambda first, last: together.wait())
+    assert not together.broken
+
+
+def test_a_team_passes_arguments_on_before_the_range():
+    total = np.zeros(100, int)
+
+    def add(numbers, factor, into, first, last):
+        into[first:last] += factor * numbers[first:last]
+
+    with on_threads(3), Team() as team:
+        for _ in range(5):
+            team(100, 7, add, np.arange(100), 3, total)
+    assert np.array_equal(total, 15 * np.arange(100))
+
+
+@pytest.mark.parametrize("broken", [0, 1, 2])
+def test_a_team_raises_what_a_kernel_raises_on_any_thread(broken):
+    def work(first, last):
+        if first == broken * FEWEST:
+            raise ZeroDivisionError(f"rows {first} to {last}")
+
+    with on_threads(3), pytest.raises(ZeroDivisionError, match=f"rows {broken * FEWEST} to"), Team() as team:
+        team(3 * FEWEST, 1, work)

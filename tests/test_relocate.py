@@ -12,7 +12,7 @@ from pointchart.links import link_stars
 from pointchart.mesh import boundary_loops, half_edges, one_rings, start_draft
 from pointchart.neighbors import Neighborhoods, nearest
 from pointchart.quality import dihedral_angles
-from pointchart.relocate import mesh_energy, relocate_points, suspect_points
+from pointchart.relocate import JOURNAL, least_gain, mesh_energy, relocate_in_place, relocate_points, suspect_points
 from pointchart.swaps import swap_to_delaunay
 from pointchart.vicinity import explore
 
@@ -187,6 +187,61 @@ def test_suspects_are_the_ends_of_links_of_more_than_two_edges(shape, seed):
     is_far &= np.isin(links.rows, among)
     expected = np.unique(np.r_[links.rows[is_far], links.indices[is_far]])
     assert suspects_in(shape.points, shape.triangles, links, among).tolist() == expected.tolist()
+
+
+def wheel(n_around, n_rings, *, is_whole):
+    """Return rings of points around one that is joined to all of the first, or half of them, so that it is on the rim.
+
+    All are in the order of the rings.
+    """
+    ring = 1 + np.arange(n_rings * n_around).reshape(n_rings, n_around)
+    turn = (2 if is_whole else 1) * np.pi * np.arange(n_around) / n_around
+    here, there = (ring, np.roll(ring, -1, axis=1)) if is_whole else (ring[:, :-1], ring[:, 1:])
+    fan = np.stack([np.zeros_like(here[0]), here[0], there[0]], axis=-1)
+    bands = [(here[:-1], here[1:], there[1:]), (here[:-1], there[1:], there[:-1])]
+    triangles = np.concatenate([fan, *(np.stack(band, axis=-1).reshape(-1, 3) for band in bands)])
+    rings = [np.zeros((1, 2)), *(r * np.c_[np.cos(turn), np.sin(turn)] for r in range(1, n_rings + 1))]
+    uv = np.concatenate(rings)
+    return shapes.Shape(np.c_[uv, np.zeros(len(uv))], triangles, uv)
+
+
+@pytest.mark.parametrize("is_whole", [True, False])
+def test_suspects_are_found_around_points_of_many_edges(is_whole):
+    shape = wheel(45, 4, is_whole=is_whole)
+    n, draft, is_near = len(shape.points), start_draft(shape.points, shape.triangles, journal=0), two_edges_apart(shape)
+    assert not is_near.all(axis=1).any()
+    for i in range(n):
+        links = Neighborhoods(np.where(np.arange(n + 1) > i, n, 0), np.arange(n))
+        expected = np.union1d(np.flatnonzero(~is_near[i]), [i])
+        assert suspect_points(links, draft, np.array([i])).tolist() == expected.tolist()
+        beside = np.flatnonzero(is_near[i])
+        links = Neighborhoods(np.where(np.arange(n + 1) > i, len(beside), 0), beside)
+        assert len(suspect_points(links, draft)) == 0
+
+
+def astray_relief():
+    shape = shapes.relief(200, seed=4)
+    return shape, put_astray(shape.triangles, len(shape.points), np.random.default_rng(0), 8)
+
+
+def test_no_point_moves_where_no_gain_is_enough():
+    shape, astray = astray_relief()
+    draft, everyone = start_draft(shape.points, astray, journal=JOURNAL), np.arange(len(shape.points))
+    around = nearest(shape.points, 20)
+    n_moves, is_touched = relocate_in_place(draft, around, everyone, np.inf)
+    assert n_moves == is_touched.sum() == 0
+    assert np.array_equal(draft.corners.reshape(-1, 3), astray)
+    n_moves, is_touched = relocate_in_place(draft, around, everyone, least_gain(draft))
+    assert n_moves > 0
+    is_other = (draft.corners.reshape(-1, 3) != astray).any(axis=1)
+    assert is_touched[draft.corners.reshape(-1, 3)[is_other]].all()
+
+
+def test_the_least_gain_is_a_small_share_of_the_energy_of_a_triangle_in_any_unit():
+    shape, _ = astray_relief()
+    one, other = (least_gain(start_draft(unit * shape.points, shape.triangles, journal=0)) for unit in (1, 4.0))
+    assert other == 4.0**4 * one
+    assert 0 < one < 1e-3 * mesh_energy(shape.points, shape.triangles) / len(shape.triangles)
 
 
 def test_without_near_points_nothing_moves():

@@ -83,13 +83,17 @@ def uv_on_mesh(points: Points, loop: Loop, boundary_uv: UV, meshed: Meshed, solv
 
 def _quick_maps(points: Points, loop: Loop, boundary_uv: UV, rings: Neighborhoods) -> Iterator[Parameterization]:
     """Map the mesh to residuals that are small against the whole, not where it is fine."""
-    weights = mean_value(points, rings)
-    matrix = sp.csr_array((weights, rings.indices, rings.indptr), shape=(rings.n_points,) * 2)
     start = None
     for tolerance in QUICK_TOLERANCES:
-        solution = solve_fixed(matrix, loop, boundary_uv, solver=partial(multigrid, tolerance=tolerance, start=start))
-        start = np.delete(solution.values, loop, axis=0)
+        solver = partial(multigrid, tolerance=tolerance, start=start)
+        solution = solve_fixed(_mean_value_matrix(points, rings), loop, boundary_uv, solver=solver)
         yield Parameterization(solution.values, loop, solution)
+        start = np.delete(solution.values, loop, axis=0)
+
+
+def _mean_value_matrix(points: Points, rings: Neighborhoods) -> sp.csr_array:
+    indptr = np.asarray(rings.indptr, rings.indices.dtype)  # of two types, both would be copied
+    return sp.csr_array((mean_value(points, rings), rings.indices, indptr), shape=(rings.n_points,) * 2)
 
 
 def uv_low_stretch(

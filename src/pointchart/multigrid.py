@@ -89,7 +89,7 @@ def multigrid(
     with Team() as team:
         for k in range(0, d, 2):
             # A last column without a partner is solved for twice.
-            pair = [k, min(k + 1, d - 1)]
+            pair = slice(k, k + 2) if k + 1 < d else [k, k]
             gain, found = _bicgstab(left, hierarchy, rest[:, pair], tolerance * sizes[pair], team)
             solution[:, pair] += gain
             counts += found[: d - k].tolist()
