@@ -10,7 +10,7 @@ from pointchart._kernels.unsigned import unsigned
 from pointchart._parallel import on_threads
 from pointchart.errors import SolveError
 from pointchart.mesh import one_rings
-from pointchart.multigrid import MOST_ITERATIONS, TOLERANCE, _in_singles, _split, multigrid
+from pointchart.multigrid import MOST_ITERATIONS, ROUNDS, TOLERANCE, _in_singles, _split, multigrid
 from pointchart.shapes import disc, relief
 from pointchart.solve import direct, solve_fixed
 from pointchart.weights import mean_value
@@ -331,7 +331,7 @@ def test_a_tolerance_that_is_missed_is_told_with_the_number_of_unknowns():
     turn = sp.random_array((n, n), density=0.02, rng=np.random.default_rng(0))
     left = sp.csr_array(sp.eye_array(n) + 30 * (turn - turn.T))
     message = (
-        rf"multigrid did not reach a relative residual of 1e-08 in {MOST_ITERATIONS} iterations \({n} unknowns\); "
+        rf"multigrid did not reach a relative residual of 1e-08 in {ROUNDS * MOST_ITERATIONS} iterations \({n} unknowns\); "
         "use the direct solver"
     )
     with pytest.raises(SolveError, match=message):

@@ -168,7 +168,7 @@ def reconstruct(
             meshed = _swapped_again(cloud.points, stand, swap)
         with clock("parameters"):
             meshed = replace(meshed, swapped=swap_off_sides(meshed.swapped, rim, boundary_uv))
-            mapped = chart(stand.rims.points, rim, boundary_uv, meshed, solver)
+            mapped = chart(cloud.scale * cloud.points, rim, boundary_uv, meshed, solver)
         with clock("certify"):
             patches = stand.rims.patches(stand.opened, meshed.swapped.triangles)
             triangles, holes = open_gaps(meshed.swapped.triangles, patches, len(cloud.points))

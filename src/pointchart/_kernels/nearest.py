@@ -12,7 +12,7 @@ from numba import njit
 
 LEAF = 8
 DEEPEST = 64  # levels of a tree
-SLACK = 1.0 + 1e-9  # for rounding
+SLACK, SMALLEST = 1.0 + 1e-9, 1e-300  # for rounding, and for points that coincide
 
 
 @njit(cache=True, nogil=True)
@@ -52,7 +52,7 @@ def find_nearest(points, low, high, queries, found, squares):
         i, row, far = queries[place], found[place], squares[place]
         x, y, z = points[i, 0], points[i, 1], points[i, 2]
         way = math.sqrt((x - points[before, 0]) ** 2 + (y - points[before, 1]) ** 2 + (z - points[before, 2]) ** 2)
-        count, worst = 0, (reach + way) ** 2 * SLACK
+        count, worst = 0, (reach + way) ** 2 * SLACK + SMALLEST
         subtree = path = leaves + i // LEAF
         while True:
             size, stack[0], square[0] = 1, subtree, square_to_box(low, high, subtree, x, y, z)
