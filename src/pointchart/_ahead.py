@@ -12,7 +12,7 @@ from .assemble import assemble
 from .boundary import chord_length_on_circle, patchwork
 from .certify import certify
 from .chart import uv_on_mesh
-from .neighbors import nearest
+from .mesh import one_rings
 from .refine import Meshed
 from .relocate import relocate_points
 from .shapes import disc
@@ -25,9 +25,9 @@ def main() -> None:
     """Call the stages, the last first."""
     shape = disc(N)
     points, triangles, loop = shape.points, shape.triangles.astype(np.int32), shape.boundary
-    certify(points, triangles, uv=shape.uv, loop=loop)
+    certify(points, triangles, uv=shape.uv, loop=loop, spacing=np.ones(N))
     uv_on_mesh(points, loop, chord_length_on_circle(points, loop), Meshed(Swapped(triangles, 0, True)), None)
-    relocate_points(points, triangles, nearest(points, 20), np.arange(N, dtype=np.int32))
+    relocate_points(points, triangles, one_rings(triangles, N), np.arange(N, dtype=np.int32))
     swap_to_delaunay(points, triangles)
     assemble(points, patchwork(triangles[1:], N), loop)
 

@@ -3,7 +3,7 @@
 import numpy as np
 
 from .mesh import HalfEdges
-from .neighbors import search
+from .neighbors import spacing
 from .typing import UV, Floats, Indices, Points, Triangles
 
 
@@ -245,6 +245,4 @@ def least_distance(uv: UV) -> float:
     >>> least_distance(np.array([[0.0, 0.0], [3.0, 0.0], [3.0, 1.0]]))
     1.0
     """
-    from scipy.spatial import cKDTree
-
-    return float(search(cKDTree(uv), uv, 2)[0][:, 1].min())
+    return float(spacing(np.column_stack([uv, np.zeros(len(uv))]), k=1).min())

@@ -94,7 +94,7 @@ def mark_pinching(corners, twin, rim, ahead, behind, first, is_kept):
         v = corners[h]
         size, rank = fan_size(corners, twin, h, ahead[v], behind[v])
         n_triangles[v] -= size
-        best = first[v]
+        best = np.int64(first[v])
         if best < 0:
             first[v] = h
         elif rim[best] != rim[h]:
@@ -107,8 +107,9 @@ def mark_pinching(corners, twin, rim, ahead, behind, first, is_kept):
         if first[v] < 0 or n_triangles[v] == 0:
             continue
         # What is left besides the fans on the rim is a closed one, at an inner point.
-        if fan_size(corners, twin, first[v], ahead[v], behind[v])[1] < ON_BOUNDARY:
-            drop_fan(twin, first[v], is_kept)
+        best = np.int64(first[v])
+        if fan_size(corners, twin, best, ahead[v], behind[v])[1] < ON_BOUNDARY:
+            drop_fan(twin, best, is_kept)
         else:
             k = twin[h]
             while k >= 0 and following(k) != h:
@@ -176,7 +177,7 @@ def cut_walks(corners, twin, ahead, behind, place, path, loops, starts, is_kept)
                 drop_fan(twin, h if one < other else closed[v], is_kept)
                 tangled += 1
             if place[v] >= 0:
-                size, depth = close_loop(corners, place, path, place[v], depth, loops, starts, count, size)
+                size, depth = close_loop(corners, place, path, np.int64(place[v]), depth, loops, starts, count, size)
                 count += 1
                 for k in range(starts[count - 1] + 1, size):
                     closed[corners[loops[k]]], walk[corners[loops[k]]] = loops[k], seed

@@ -157,7 +157,7 @@ def join_alike(triangles, edge_of, sides, parent, is_odd, t):
         for j in range(3):
             if edge_of[other, j] == e:
                 runs_alike = triangles[other, (j + 1) % 3] == triangles[t, (k + 1) % 3]
-        root, odd = root_of(parent, is_odd, other)
+        root, odd = root_of(parent, is_odd, np.int64(other))
         odd ^= runs_alike
         for j in range(k):
             if roots[j] == root and odds[j] != odd:
@@ -169,7 +169,7 @@ def join_alike(triangles, edge_of, sides, parent, is_odd, t):
         put_beside(sides, edge_of[t, k], t)
         if roots[k] >= 0:
             root, odd = root_of(parent, is_odd, t)
-            if root_of(parent, is_odd, roots[k])[0] != root:
+            if root_of(parent, is_odd, np.int64(roots[k]))[0] != root:
                 parent[root], is_odd[root] = roots[k], odd ^ odds[k]
     return JOINED
 
