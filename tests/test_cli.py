@@ -730,6 +730,7 @@ def test_commands_run_on_the_threads_asked_for(run, cap, monkeypatch, words):
         return ThreadPoolExecutor(n)
 
     monkeypatch.setattr("pointchart._parallel.ThreadPoolExecutor", counted)
+    monkeypatch.setattr("pointchart._parallel.LEAST_CHUNK", 50)
     command, *out = words
     assert run(command, "cap.ply", *out, "--threads", 3)[0] == 0
     assert set(pools) == {3}

@@ -10,7 +10,7 @@ from functools import cache
 from pathlib import Path
 from typing import Self
 
-CHUNK = 8192
+CHUNK, LEAST_CHUNK = 8192, 1024
 FEWEST = 2
 _given: ContextVar[int | None] = ContextVar("_given", default=None)
 
@@ -65,7 +65,12 @@ def over_ranges(kernel: Callable[[int, int], object], n: int) -> None:
     >>> seen
     [(0, 3)]
     """
-    ranges = [(first, min(first + CHUNK, n)) for first in range(0, n, CHUNK)]
+    chunk = min(CHUNK, max(LEAST_CHUNK, math.ceil(n / (2 * n_threads()))))
+    ranges = [(first, min(first + chunk, n)) for first in range(0, n, chunk)]
+    if len(ranges) < 2:
+        for first, last in ranges:
+            kernel(first, last)
+        return
     pool = ThreadPoolExecutor(n_threads())
     try:
         for done in [pool.submit(kernel, first, last) for first, last in ranges]:

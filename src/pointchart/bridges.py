@@ -76,16 +76,16 @@ def find_bridges(
     >>> find_bridges(square, faces, np.full(4, 0.2), lambda: np.ones(4, bool))[0].rim_in_spacings
     20.0
     """
-    edges = half_edges(triangles, len(points))
-    ratios = np.empty(len(edges.origins))
+    # Lengths alone, for which no half-edge needs its twin.
+    origins = np.array(triangles, dtype=np.int32).ravel()
+    alone, ratios = np.full_like(origins, -1), np.empty(len(origins))
     over_ranges(
-        lambda first, last: measure_edges(points, edges.origins, edges.twins, spacing, -1.0, first, last, ratios),
-        len(ratios),
+        lambda first, last: measure_edges(points, origins, alone, spacing, -1.0, first, last, ratios), len(ratios)
     )
-    bridging = (ratios > LONG_EDGE).reshape(-1, 3).any(axis=1)
-    found = np.flatnonzero(bridging)
+    found = np.unique(np.flatnonzero(ratios > LONG_EDGE) // 3)
     if len(found) == 0:
         return []
+    edges = half_edges(triangles, len(points))
     place = np.full(len(triangles), -1)
     place[found] = np.arange(len(found))
     sides = 3 * found[:, None] + np.arange(3)

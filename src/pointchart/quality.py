@@ -242,7 +242,7 @@ def least_distance(uv: UV) -> float:
     Examples
     --------
     >>> import numpy as np
-    >>> least_distance(np.array([[0.0, 0.0], [3.0, 0.0], [3.0, 1.0]]))
+    >>> least_distance(np.array([[0.0, 0.0], [3.0, 0.0], [3.0, 1.0], [0.0, 2.0]]))
     1.0
     """
     return float(spacing(np.column_stack([uv, np.zeros(len(uv))]), k=1).min())
