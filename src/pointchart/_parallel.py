@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Self
 
 CHUNK, LEAST_CHUNK = 8192, 1024
-FEWEST = 2
+FEWEST = 8
 _given: ContextVar[int | None] = ContextVar("_given", default=None)
 
 
