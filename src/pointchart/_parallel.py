@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Self
 
 CHUNK, LEAST_CHUNK = 8192, 1024
-FEWEST = 8
+FEWEST = 8  # blocks: for less than 16,384 rows of a matrix, to wake another thread costs more than it saves
 _given: ContextVar[int | None] = ContextVar("_given", default=None)
 
 

@@ -77,7 +77,7 @@ def find_bridges(
     20.0
     """
     # Lengths alone, for which no half-edge needs its twin.
-    origins = np.array(triangles, dtype=np.int32).ravel()
+    origins = np.asarray(triangles, np.int32).ravel()
     alone, ratios = np.full_like(origins, -1), np.empty(len(origins))
     over_ranges(
         lambda first, last: measure_edges(points, origins, alone, spacing, -1.0, first, last, ratios), len(ratios)

@@ -23,7 +23,7 @@ from .solve import Solver, solve_fixed
 from .typing import UV, Loop, Points, Triangles
 from .weights import WeightScheme, fixed, mean_value, normalize, uniform
 
-QUICK_TOLERANCES = 1e-6, 1e-10
+QUICK_TOLERANCES = 1e-6, 1e-10  # of the first maps, each tried for being one-to-one
 DIRECT_LIMIT = 10_000  # points up to which factors cost less than a hierarchy of matrices
 RELAXATIONS = 8  # the stretch falls most in the first two; thin limbs go on to open up to the eighth
 
@@ -35,8 +35,8 @@ def uv_on_mesh(points: Points, loop: Loop, boundary_uv: UV, meshed: Meshed, solv
 
     Without a solver, large meshes are mapped by multigrid to a relative residual of 1e-6 first, and on to 1e-10 where
     that leaves a triangle that is not positive, by exact signs. Failing that, the map is solved to the last digits;
-    where one is flat in double precision all the same, the map is opened by other weights (`openings`), then from
-    uniform weights, Tutte's own. Weights stay positive, so the theorem holds throughout.
+    where a triangle is flat in double precision all the same, the map is opened by other weights (`openings`), then
+    from uniform weights, Tutte's own. Weights stay positive, so the theorem holds throughout.
 
     Parameters
     ----------

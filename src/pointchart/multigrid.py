@@ -67,7 +67,7 @@ def multigrid(
     Raises
     ------
     SolveError
-        If the tolerance is not reached.
+        If ten times the tolerance is not reached, or the matrix is none that can be coarsened.
 
     References
     ----------
@@ -83,8 +83,11 @@ def multigrid(
     if d == 0:
         return np.zeros((n, 0)), ()
     hierarchy = _coarsened(left)
-    counts, sizes = np.zeros(d, np.int64), np.linalg.norm(right, axis=0)
-    solution = np.zeros((n, d)) if start is None else np.array(start, dtype=np.float64)
+    with np.errstate(over="ignore"):
+        counts, sizes = np.zeros(d, np.int64), np.linalg.norm(right, axis=0)
+    if not np.isfinite(sizes).all():
+        raise SolveError(f"the right sides have norms {sizes.tolist()}; give finite ones, scaled down if they are huge")
+    solution = np.zeros((n, d)) if start is None else np.where(sizes > 0.0, start, 0.0)
     rest = np.asarray(right, np.float64) if start is None else right - left @ solution
     for _ in range(ROUNDS):
         with Team() as team:
@@ -95,6 +98,8 @@ def multigrid(
                 solution[:, pair] += gain
                 counts[k : k + 2] += found[: d - k]
         rest = right - left @ solution
+        if not np.isfinite(rest).all():
+            break
         if (np.linalg.norm(rest, axis=0) <= SLACK * tolerance * sizes).all():
             return solution, tuple(counts.tolist())
     raise SolveError(
@@ -139,7 +144,7 @@ class _Level(NamedTuple):
 
 
 class _Hierarchy(NamedTuple):
-    """What preconditions a matrix, in single precision: levels, the inverse of the coarsest matrix, and vectors."""
+    """What preconditions a matrix: levels and vectors in single precision, the inverse of the coarsest matrix."""
 
     levels: list[_Level]
     coarsest: Floats
@@ -167,7 +172,7 @@ def _bicgstab(
     for step in range(MOST_ITERATIONS):
         counts = np.where(size <= small, np.minimum(counts, step), counts)
         is_open = counts > step
-        if not is_open.any():
+        if not is_open.any() or not np.isfinite(size).all():
             break
         guess = _cycle(hierarchy, direction, team)
         team(n, BLOCK, multiply, *rows, guess, across, shadow, sums)
@@ -235,7 +240,7 @@ def _in_singles(matrix: _Matrix) -> tuple[Indices, Indices, Indices, Singles, Si
 
 
 def _light(transfer: _Transfer) -> _Transfer:
-    """Give what is large no more room than it takes."""
+    """Give a way between levels in single precision, and no more room than it takes."""
     return _Transfer(unsigned(transfer.indptr), unsigned(transfer.indices.copy()), transfer.data.astype(np.float32))
 
 
@@ -275,7 +280,7 @@ def _transposed(prolongation: _Transfer, n_coarse: int) -> _Transfer:
 def _product(matrix: _Matrix, prolongation: _Transfer, restriction: _Transfer) -> _Matrix:
     """Return the matrix of the next level, the product of restriction, matrix and interpolation."""
     n_coarse = len(restriction.indptr) - 1
-    # Plain tuples: the compiled code that is kept would name the classes of others.
+    # Plain tuples: code compiled for named ones would hang on a class of this module.
     along, back = ((unsigned(way.indptr), unsigned(way.indices), way.data) for way in (prolongation, restriction))
     fine = unsigned(matrix.indptr), unsigned(matrix.indices), matrix.data, matrix.diagonal
     sizes, middle, diagonal = np.empty(n_coarse, np.int64), np.empty(n_coarse, np.int64), np.empty(n_coarse)

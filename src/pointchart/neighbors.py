@@ -56,7 +56,7 @@ class Neighborhoods:
 
     @property
     def table(self) -> tuple[Indices, Indices]:
-        """`indptr` and `indices` of one type each, unsigned: as compiled loops take them, see `unsigned`."""
+        """`indptr` as uint64 and `indices` as uint32, as compiled loops take them; a copy of indices that are int64."""
         return unsigned(np.asarray(self.indptr, np.int64)), unsigned(np.asarray(self.indices, np.int32))
 
     @property
@@ -208,8 +208,10 @@ class BoxTree:
     def nearest(self, k: int, queries: Indices | None = None) -> Indices:
         """Find the `k` nearest others, if there are as many, of some points or of all, nearest first: (q, k) int32."""
         points = self._points
-        places = np.arange(len(points)) if queries is None else queries
-        places, found = places.astype(np.uint32), np.empty((len(places), min(k, len(points) - 1)), np.uint32)
+        places = np.arange(len(points), dtype=np.uint32) if queries is None else queries.astype(np.uint32)
+        found = np.empty((len(places), min(k, len(points) - 1)), np.uint32)
+        if found.size == 0:
+            return found.view(np.int32)
 
         def find(first: int, last: int) -> None:
             squares = np.empty((last - first, found.shape[1]))
@@ -264,8 +266,9 @@ def spacing(points: ArrayLike, *, k: int = 6, around: Neighborhoods | None = Non
     count = min(k, int(found.sizes[0]))
     # Neighbours are sorted by distance: the median is that of the middle one, or the mean of the middle two.
     one, other, result = (count - 1) // 2, count // 2, np.empty(len(cloud))
+    rows = found.table
     over_ranges(
-        lambda first, last: middle_distances(cloud, *found.table, one, other, first, last, result),
+        lambda first, last: middle_distances(cloud, *rows, one, other, first, last, result),
         len(cloud),
     )
     return result

@@ -3,7 +3,8 @@
 import numpy as np
 
 from .mesh import HalfEdges
-from .neighbors import spacing
+from .morton import morton_order
+from .neighbors import BoxTree
 from .typing import UV, Floats, Indices, Points, Triangles
 
 
@@ -242,7 +243,8 @@ def least_distance(uv: UV) -> float:
     Examples
     --------
     >>> import numpy as np
-    >>> least_distance(np.array([[0.0, 0.0], [3.0, 0.0], [3.0, 1.0], [0.0, 2.0]]))
+    >>> least_distance(np.array([[0.0, 0.0], [3.0, 0.0], [3.0, 1.0]]))
     1.0
     """
-    return float(spacing(np.column_stack([uv, np.zeros(len(uv))]), k=1).min())
+    places = np.column_stack([uv, np.zeros(len(uv))])[morton_order(uv)]
+    return float(np.linalg.norm(places[BoxTree(places).nearest(1)[:, 0]] - places, axis=1).min())

@@ -131,7 +131,8 @@ def _settled(
         with clock("relocate"):
             draft.leaving[draft.corners] = np.arange(len(draft.corners), dtype=np.int32)
             suspects = suspect_points(links, draft, among)
-            least = least if len(suspects) == 0 or least > 0.0 else least_gain(draft)
+            if len(suspects) > 0 and least == 0.0:  # once, and only if there is anything to move
+                least = least_gain(draft)
             moves, is_touched = relocate_in_place(draft, around, suspects, least)
         if moves == 0:
             break

@@ -70,7 +70,7 @@ def relocate_points(points: Points, triangles: Triangles, around: Neighborhoods,
 
 
 def least_gain(draft: Draft) -> float:
-    """Return by how much a move has to make the energy of a mesh fall."""
+    """Return by how much the energy of a mesh has to fall with a move, in the fourth power of the points' unit."""
     return LEAST_GAIN * float(total_energy(draft)) / (len(draft.corners) // 3)
 
 
@@ -115,9 +115,10 @@ def suspect_points(links: Neighborhoods, draft: Draft, among: Indices | None = N
     >>> suspect_points(pair, start_draft(np.zeros((6, 3)), strip, journal=0))
     array([0, 5])
     """
-    places = np.arange(links.n_points, dtype=np.int32) if among is None else among
+    places = np.arange(links.n_points, dtype=np.int32) if among is None else np.asarray(among, np.int32)
+    rows = links.table
     is_far = np.zeros(links.n_points, np.bool_)
-    over_ranges(lambda first, last: mark_far(draft, *links.table, first, last, places, is_far), len(places))
+    over_ranges(lambda first, last: mark_far(draft, *rows, first, last, places, is_far), len(places))
     return np.flatnonzero(is_far)
 
 

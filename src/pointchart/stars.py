@@ -236,9 +236,9 @@ def _with_rows(found: Neighborhoods, rows: Indices, by: Neighborhoods) -> Neighb
 
 def _planes(cloud: Points, around: Neighborhoods, fading: float) -> tuple[Floats, Floats]:
     """Return the normals of the planes, and the height of each plane above its point."""
-    normal, offset = np.empty_like(cloud), np.empty(len(cloud))
+    normal, offset, rows = np.empty_like(cloud), np.empty(len(cloud)), around.table
     over_ranges(
-        lambda first, last: fit_planes(cloud, *around.table, fading, first, last, normal, offset),
+        lambda first, last: fit_planes(cloud, *rows, fading, first, last, normal, offset),
         len(cloud),
     )
     return normal, offset
@@ -247,16 +247,16 @@ def _planes(cloud: Points, around: Neighborhoods, fading: float) -> tuple[Floats
 def _stars(
     cloud: Points, normal: Floats, around: Neighborhoods, *, local: bool = True
 ) -> tuple[Neighborhoods, Mask, Sides]:
-    """Find all stars; tell, too, which are wider than their candidates reach."""
+    """Find all stars; tell, too, which closed ones are wider than their candidates, nearest first, reach."""
     n = len(cloud)
     count, is_open, is_short, width = np.empty(n, np.int64), np.empty(n, np.bool_), np.empty(n, np.bool_), np.empty(n)
-    sides = Sides(np.empty(n), np.empty(n))
+    sides, rows = Sides(np.empty(n), np.empty(n)), around.table
     parts: dict[int, tuple[Indices, Floats]] = {}
 
     def find(first: int, last: int) -> None:
         room = int(around.indptr[last] - around.indptr[first])
         star, places = np.empty(room, np.uint32), np.empty((room, 2))
-        where = cloud, normal, *around.table, STEEPEST, first, last
+        where = cloud, normal, *rows, STEEPEST, first, last
         size = stars_kernel(*where, star, places, count, is_open, is_short, width, *sides)
         parts[first] = star[:size].view(np.int32).copy(), places[: size if local else 0].copy()
 

@@ -82,7 +82,7 @@ def sweep_backward(indptr, middle, indices, data, inverse, known, x, better, fir
 
 @njit(cache=True, nogil=True)
 def multiply(indptr, indices, data, x, product, other, sums, first, last):
-    """Write rows first..last of the product of a matrix and x; `sums` are those of `other` and itself with it."""
+    """Write rows first..last of the product of a matrix and x; for `sums` of a block see `add_products`."""
     for begin in range(first, last, BLOCK):
         place = begin // BLOCK
         sums[place] = 0.0

@@ -197,8 +197,9 @@ def corner_angles(points: Points, triangles: Triangles) -> Floats:
 def _sides(cloud: Points, around: Neighborhoods) -> Sides:
     check_neighbors(around.indices, around.n_points, len(cloud))
     normal, sides = normals(cloud, around, fading=FADING), Sides(np.empty(len(cloud)), np.empty(len(cloud)))
+    rows = around.table
     over_ranges(
-        lambda first, last: survey_sides(cloud, normal, *around.table, STEEPEST, first, last, *sides),
+        lambda first, last: survey_sides(cloud, normal, *rows, STEEPEST, first, last, *sides),
         len(cloud),
     )
     return sides

@@ -1,13 +1,10 @@
 """Word of the stages on stderr while a run goes on."""
 
-import subprocess
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from subprocess import DEVNULL
 
-from .._parallel import n_threads
 from ..clock import StageClock
 
 # Usual share of the whole time that is over when a stage begins; each loop that is tried begins them again.
@@ -30,12 +27,8 @@ OVER_BY = {
 @contextmanager
 def staged(quiet: bool) -> Iterator[StageClock]:
     """Give a clock that shows stages as they begin: a bar with an estimate on a terminal, nothing if quiet or piped."""
-    with _first_run(quiet), _shown(quiet) as clock:
-        yield clock
-
-
-@contextmanager
-def _shown(quiet: bool) -> Iterator[StageClock]:
+    if not quiet:
+        _warn_of_first_run()
     if quiet or not sys.stderr.isatty():
         yield StageClock()
         return
@@ -59,28 +52,11 @@ def _shown(quiet: bool) -> Iterator[StageClock]:
         yield StageClock(show)
 
 
-@contextmanager
-def _first_run(quiet: bool) -> Iterator[None]:
-    """On the first run on a machine say why it waits, and compile the kernels of late stages in another process."""
-    if not _has_to_compile():
-        yield
-        return
-    if not quiet:
-        print("pointchart: first run on this machine: compiling its kernels, once, some 20 seconds", file=sys.stderr)
-    command = [sys.executable, "-m", "pointchart._ahead"]
-    ahead = subprocess.Popen(command, stdin=DEVNULL, stdout=DEVNULL, stderr=DEVNULL) if n_threads() > 1 else None
-    try:
-        yield
-    finally:
-        if ahead is not None:
-            ahead.terminate()
-            ahead.wait()
-
-
-def _has_to_compile() -> bool:
-    """Tell whether one of the kernels is not kept yet: they are compiled once on a machine."""
+def _warn_of_first_run() -> None:
+    """Say why the first run on a machine waits: the kernels are compiled once and kept."""
     from .._kernels.stars import delaunay_stars
 
     stats = getattr(delaunay_stars, "stats", None)  # none where compiling is turned off
     kept = f"stars.delaunay_stars-{delaunay_stars.__code__.co_firstlineno}.*.nbi"
-    return stats is not None and not any(Path(stats.cache_path).glob(kept))
+    if stats is not None and not any(Path(stats.cache_path).glob(kept)):
+        print("pointchart: first run on this machine: compiling its kernels, once, some 30 seconds", file=sys.stderr)
