@@ -10,16 +10,16 @@ from ..clock import StageClock
 # Usual share of the whole time that is over when a stage begins; each loop that is tried begins them again.
 OVER_BY = {
     "prepare": 0,
-    "neighbours": 3,
-    "boundary": 30,
-    "assemble": 45,
-    "map": 46,
-    "triangulate": 50,
-    "recover": 51,
-    "swap": 52,
-    "relocate": 58,
-    "parameters": 65,
-    "certify": 92,
+    "neighbours": 4,
+    "boundary": 31,
+    "assemble": 44,
+    "map": 45,
+    "triangulate": 47,
+    "recover": 48,
+    "swap": 49,
+    "relocate": 52,
+    "parameters": 55,
+    "certify": 90,
     "fit": 95,
 }
 
