@@ -1,3 +1,4 @@
+import signal
 import subprocess
 import sys
 
@@ -9,24 +10,27 @@ from pointchart.io.output import remove_temporaries, replacing
 
 # A call that computes for ten minutes without a look at signals, with a file half written.
 DEAF = """
-import ctypes, os, signal, threading, time
+import ctypes, os, signal, sys, threading, time
 from pointchart import cli
 from pointchart.__main__ import main
 from pointchart.io import replacing
 signal.signal(signal.SIGINT, signal.default_int_handler)
+signal.signal(signal.SIGHUP, signal.SIG_DFL)
 def run():
     with replacing("mesh.ply") as temporary:
         temporary.write_text("half")
-        threading.Timer(0.1, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+        threading.Timer(0.1, lambda: os.kill(os.getpid(), int(sys.argv[1]))).start()
         ctypes.CDLL(None).sleep(600)
 cli.main = run
 main()
 """
 
 
-def test_ctrl_c_is_heard_while_a_kernel_computes_and_leaves_nothing_behind(tmp_path):
-    done = subprocess.run([sys.executable, "-c", DEAF], cwd=tmp_path, capture_output=True, text=True, timeout=120)
-    assert (done.returncode, done.stdout, done.stderr) == (130, "", "")
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP], ids=lambda number: number.name)
+def test_signals_to_end_are_heard_while_a_kernel_computes_and_leave_nothing_behind(tmp_path, number):
+    command = [sys.executable, "-c", DEAF, str(int(number))]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=120)
+    assert (done.returncode, done.stdout, done.stderr) == (128 + number, "", "")
     assert list(tmp_path.iterdir()) == []
 
 

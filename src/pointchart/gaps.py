@@ -175,6 +175,6 @@ def place_of(points: Points, index: int) -> str:
     Examples
     --------
     >>> place_of(np.array([[0.5, -2.0, 1e6]]), 0)
-    '(0.5, -2, 1e+06)'
+    '(0.5, -2, 1000000)'
     """
-    return "(" + ", ".join(f"{x:.6g}" for x in points[index]) + ")"
+    return "(" + ", ".join(f"{x:.9g}" for x in points[index]) + ")"

@@ -74,4 +74,4 @@ ThreadsOption = Annotated[
 ReportOption = Annotated[
     Path | None, typer.Option("--report", metavar="RUN.json", help="Write what was done and proved as JSON.")
 ]
-QuietOption = Annotated[bool, typer.Option("--quiet", help="Say nothing but errors.")]
+QuietOption = Annotated[bool, typer.Option("--quiet", "-q", help="Say nothing but errors.")]
