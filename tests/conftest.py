@@ -1,6 +1,7 @@
-"""Shapes made once a run, and the real scans where they are at hand."""
+"""Shapes made once a run, the real scans where they are at hand, and a browser where there is one."""
 
 import os
+import shutil
 import sys
 from functools import cache
 from pathlib import Path
@@ -29,6 +30,20 @@ DISCS = {
     "thinned relief": lambda: shapes.thin(shapes.relief(900, seed=3)),
     "face": lambda: shapes.sculpture(1500),
 }
+
+
+# A new browser that draws in software, looks for nothing on the network and runs as root.
+CHROMIUM = [
+    "--no-sandbox",
+    "--use-angle=swiftshader",
+    "--enable-unsafe-swiftshader",
+    "--ignore-gpu-blocklist",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-quic",
+    "--disable-sync",
+    "--no-first-run",
+]
 
 
 class Scan(NamedTuple):
@@ -89,3 +104,17 @@ def scan():
         return Scan(np.array(points, dtype=np.float64), np.array(mesh.faces, dtype=np.int64), loop)
 
     return load
+
+
+@pytest.fixture(scope="session")
+def browser():
+    """Return Chromium, driven by Playwright, or skip the test where it is not installed."""
+    program = shutil.which("chromium") or shutil.which("google-chrome")
+    if program is None:
+        pytest.skip("no Chromium on this machine; Debian's is in the package chromium")
+    from playwright.sync_api import sync_playwright
+
+    with sync_playwright() as playwright:
+        chromium = playwright.chromium.launch(executable_path=program, args=CHROMIUM)
+        yield chromium
+        chromium.close()
