@@ -16,7 +16,7 @@ help:  ## print this menu
 	$(BIN)/pip install --quiet --disable-pip-version-check --editable '.[test,check]'
 	touch $@
 
-demo: .venv/run  ## simulate a laser scan, mesh it, print the certificate, write mesh and picture to demo/
+demo: .venv/run  ## simulate a laser scan, mesh it, print the certificate, write mesh, picture and page to demo/
 	$(BIN)/pointchart demo -o demo
 
 test: .venv/dev  ## run all tests, in two processes

@@ -659,7 +659,7 @@ def test_check_refuses_a_disc_where_a_hole_is_due(run, cap, tmp_path):
 # pointchart demo
 
 
-def test_demo_writes_scan_mesh_and_picture(run, tmp_path):
+def test_demo_writes_scan_mesh_picture_and_page(run, tmp_path):
     code, out, err = run("demo", "-o", "shown")
     assert (code, out) == (0, "")
     assert "a certified disc" in err
@@ -669,7 +669,8 @@ def test_demo_writes_scan_mesh_and_picture(run, tmp_path):
     picture = (tmp_path / "shown/picture.png").read_bytes()
     assert picture.startswith(b"\x89PNG")
     assert len(picture) > 50_000
-    assert sorted(path.name for path in (tmp_path / "shown").iterdir()) == ["mesh.ply", "picture.png", "scan.ply"]
+    written = sorted(path.name for path in (tmp_path / "shown").iterdir())
+    assert written == ["mesh.ply", "page.html", "picture.png", "scan.ply"]
 
 
 # Usage

@@ -75,6 +75,23 @@ def radius_ratios(points: Points, triangles: Triangles) -> Floats:
     return np.asarray((b + c - a) * (c + a - b) * (a + b - c) / np.where(product > 0.0, product, 1.0))
 
 
+def smallest_angles(points: Points, triangles: Triangles) -> Floats:
+    """Measure the smallest angle of each triangle, in degrees, (m,).
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> smallest_angles(np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0]]), np.array([[0, 1, 2]])).round(9)
+    array([45.])
+    """
+    corner = points[triangles]
+    least = np.full(len(triangles), np.pi)
+    for k in range(3):
+        a, b = corner[:, (k + 1) % 3] - corner[:, k], corner[:, (k + 2) % 3] - corner[:, k]
+        least = np.minimum(least, np.arctan2(np.linalg.norm(np.cross(a, b), axis=1), np.einsum("ij,ij->i", a, b)))
+    return np.asarray(np.rad2deg(least))
+
+
 def stretches(points: Points, triangles: Triangles, uv: UV) -> tuple[Floats, Floats]:
     """Measure the largest and smallest stretch of the map from the plane to space, triangle by triangle.
 

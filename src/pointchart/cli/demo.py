@@ -11,20 +11,24 @@ from .progress import staged
 
 
 def demo(
+    context: typer.Context,
     out: Annotated[
-        Path, typer.Option("--out", "-o", metavar="DIR", help="Folder for the scan, the mesh and the picture.")
+        Path,
+        typer.Option("--out", "-o", metavar="DIR", help="Folder for the scan, the mesh, the picture and the page."),
     ] = Path("demo"),
     quiet: given.QuietOption = False,
 ) -> None:
-    """Simulate a laser scan of a sculpted face, mesh it, print the certificate, write mesh and picture."""
+    """Simulate a laser scan of a sculpted face, mesh it, print the certificate, write mesh, picture and page."""
     import numpy as np
 
     from .. import shapes
     from ..errors import FormatError
     from ..io import check_output, write_mesh
+    from ..page import lay_out, writing_page
     from ..picture import draw_run
     from ..pipeline import reconstruct
-    from ..report import certificate_lines, summary
+    from ..report import certificate_lines, run_report, summary
+    from .output import command_line, given_options
 
     if out.is_file():
         raise typer.BadParameter(f"{out} is a file; name a folder", param_hint="--out")
@@ -32,17 +36,22 @@ def demo(
         out.mkdir(parents=True, exist_ok=True)
     except OSError as reason:
         raise FormatError(f"{out}: the folder cannot be made ({reason.strerror}); choose another") from None
-    cloud, mesh, picture = (out / name for name in ("scan.ply", "mesh.ply", "picture.png"))
-    for path in (cloud, mesh, picture):
-        check_output(path, suffixes=(".ply", ".png"))
+    cloud, mesh, picture, html = (out / name for name in ("scan.ply", "mesh.ply", "picture.png", "page.html"))
+    for path in (cloud, mesh, picture, html):
+        check_output(path, suffixes=(".ply", ".png", ".html"))
     scan = shapes.demo_scan().points
     with staged(quiet) as clock:
         result = reconstruct(scan, clock=clock)
     points = scan[result.rows]
+    options, rows = given_options(context), np.arange(len(scan))
+    run = run_report(scan, rows, result, clock, options, boundary_given=False)
+    page = lay_out(points, result, run, title="a simulated laser scan", command=command_line())
     write_mesh(cloud, scan, np.empty((0, 3), np.int64))
-    write_mesh(mesh, points, result.triangles, uv=result.uv)
+    with writing_page(html, page):
+        write_mesh(mesh, points, result.triangles, uv=result.uv)
     draw_run(picture, points, result.triangles, result.uv, result.loop, view=(28.0, -8.0))
     if not quiet:
         print("\n".join(certificate_lines(result.certificate)), file=sys.stderr)
         print(f"{mesh}: {summary(result.certificate)}, {sum(clock.seconds.values()):.1f} s", file=sys.stderr)
         print(f"{picture}: the scan, its parameters and its mesh", file=sys.stderr)
+        print(f"{html}: the same to turn and point at; {page.size_line}", file=sys.stderr)

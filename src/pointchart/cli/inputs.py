@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 from ..components import largest_component
 from ..errors import InputError
 from ..io import Scan, check_output, read_loop, read_scan
-from ..typing import Indices, Loop, Points
+from ..typing import UV, Indices, Loop, Points
 from .words import Component
 
 
@@ -73,13 +73,15 @@ def read_inputs(
     out: Path,
     suffixes: Sequence[str],
     report: Path | None = None,
+    html: Path | None = None,
     component: Component | None = None,
 ) -> Inputs:
-    """Check the output and the report, then read the scan and the boundary, if one is given."""
-    inputs = [scan] if boundary is None else [scan, boundary]
-    check_output(out, suffixes=suffixes, inputs=inputs)
-    if report is not None:
-        check_output(report, suffixes=(".json",), inputs=[*inputs, out])
+    """Check the output, the report and the page, then read the scan and the boundary, if one is given."""
+    taken = [scan] if boundary is None else [scan, boundary]
+    for path, allowed in ((out, suffixes), (report, (".json",)), (html, (".html", ".htm"))):
+        if path is not None:
+            check_output(path, suffixes=allowed, inputs=taken)
+            taken.append(path)
     read = read_scan(scan)
     loop = None if boundary is None else read_loop(boundary)
     whole = Inputs(read, np.arange(len(read.points)), loop)
@@ -87,3 +89,10 @@ def read_inputs(
     if component is not None and loop is not None:
         part = replace(part, loop=part.places_of(loop, "boundary points"))
     return part if corners is None else replace(part, corners=part.places_of(corners, "corners"))
+
+
+def uv_of(read: Scan) -> UV | None:
+    """Return the parameters that a mesh carries, (n, 2), if it does."""
+    if "u" not in read.attributes or "v" not in read.attributes:
+        return None
+    return np.column_stack([read.attributes["u"], read.attributes["v"]]).astype(np.float64)

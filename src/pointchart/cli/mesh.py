@@ -48,23 +48,32 @@ def mesh(
     ] = Chart.mesh,
     threads: given.ThreadsOption = None,
     report: given.ReportOption = None,
+    html: Annotated[
+        Path | None,
+        typer.Option(
+            "--html", metavar="RUN.html", help="Write a page that opens offline: mesh and uv to turn and point at."
+        ),
+    ] = None,
     quiet: given.QuietOption = False,
 ) -> None:
     """Mesh a scan of one surface patch: a triangle mesh on exactly its points, certified to be a disc, with uv."""
     from .._parallel import on_threads
     from ..errors import points_called
     from ..io import MESH_SUFFIXES, write_mesh
+    from ..page import lay_out, writing_page
     from ..pipeline import reconstruct
     from ..quality import vertex_stretches
     from ..report import boundary_lines, certificate_lines, intersection_lines, run_report, summary, writing_json
     from .choices import CHARTS, GAPS, SWAPS, connect_rule, corner_names, layout_rule, outer_place, weights_rule
     from .inputs import read_inputs
-    from .output import carried, given_options
+    from .output import carried, command_line, given_options
 
     context.with_resource(on_threads(threads))
     connect, place = connect_rule(neighbors, k, radius), outer_place(outer, boundary)
     named = corner_names(domain, corners)
-    inputs = read_inputs(scan, boundary, named, out=out, suffixes=MESH_SUFFIXES, report=report, component=component)
+    inputs = read_inputs(
+        scan, boundary, named, out=out, suffixes=MESH_SUFFIXES, report=report, html=html, component=component
+    )
     with staged(quiet) as clock, points_called(inputs.rows):
         result = reconstruct(
             inputs.points,
@@ -78,19 +87,24 @@ def mesh(
             chart=CHARTS[uv],
             clock=clock,
         )
-    rows = inputs.rows[result.rows]
-    points = inputs.scan.points[rows]
-    options, is_given = given_options(context), boundary is not None
-    run = run_report(inputs.scan.points, inputs.rows, result, clock, options, boundary_given=is_given)
+        rows = inputs.rows[result.rows]
+        points, is_given = inputs.scan.points[rows], boundary is not None
+        options = given_options(context)
+        run = run_report(inputs.scan.points, inputs.rows, result, clock, options, boundary_given=is_given)
+        page = None
+        if html is not None:
+            with clock("page"):
+                page = lay_out(points, result, run, title=scan.name, command=command_line())
     attributes = carried(inputs, rows)
     if out.suffix.lower() in HOLD_STRETCH:
         attributes |= {"stretch": vertex_stretches(points, result.triangles, result.uv)}
-    with writing_json(report, run):
+    with writing_json(report, run), writing_page(html, page):
         notes = write_mesh(out, points, result.triangles, uv=result.uv, attributes=attributes)
     if not quiet:
         lines = certificate_lines(result.certificate) + boundary_lines(result, points, found=boundary is None)
         lines += intersection_lines(run) + _rows_left(inputs, rows) + notes
-        print("\n".join([*lines, f"{out}: {summary(result.certificate)}"]), file=sys.stderr)
+        lines += [f"{out}: {summary(result.certificate)}"] + ([f"{html}: {page.size_line}"] if page else [])
+        print("\n".join(lines), file=sys.stderr)
 
 
 def _rows_left(inputs: Inputs, rows: Indices) -> list[str]:

@@ -1,5 +1,7 @@
 """What the commands write besides their results."""
 
+import shlex
+import sys
 from typing import Any
 
 import numpy as np
@@ -23,3 +25,8 @@ def given_options(context: typer.Context) -> dict[str, Any]:
     return {
         name: value if isinstance(value, int | float | None) else str(value) for name, value in context.params.items()
     }
+
+
+def command_line() -> str:
+    """Return the command that runs, as it can be given again."""
+    return shlex.join(["pointchart", *sys.argv[1:]])

@@ -1,11 +1,12 @@
 """Word of the stages on stderr while a run goes on."""
 
+import os
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from ..clock import StageClock
+from ..clock import STAGES, StageClock
 
 # Usual share of the whole time that is over when a stage begins; each loop that is tried begins them again.
 OVER_BY = {
@@ -21,16 +22,20 @@ OVER_BY = {
     "parameters": 55,
     "certify": 90,
     "fit": 95,
+    "page": 95,
 }
 
 
 @contextmanager
 def staged(quiet: bool) -> Iterator[StageClock]:
-    """Give a clock that shows stages as they begin: a bar with an estimate on a terminal, nothing if quiet or piped."""
+    """Give a clock that shows stages as they begin: a bar with an estimate on a terminal, nothing if quiet or piped.
+
+    A program that runs pointchart and sets POINTCHART_STAGES reads `stage NAME PERCENT` lines instead of the bar.
+    """
     if not quiet:
         _warn_of_first_run()
     if quiet or not sys.stderr.isatty():
-        yield StageClock()
+        yield StageClock(_tell if STAGES in os.environ and not quiet else None)
         return
     from rich.console import Console
     from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn, TimeElapsedColumn, TimeRemainingColumn
@@ -50,6 +55,10 @@ def staged(quiet: bool) -> Iterator[StageClock]:
             progress.update(task, description=name, completed=max(OVER_BY.get(name, 0), progress.tasks[task].completed))
 
         yield StageClock(show)
+
+
+def _tell(name: str) -> None:
+    print(f"stage {name} {OVER_BY.get(name, 0)}", file=sys.stderr, flush=True)
 
 
 def _warn_of_first_run() -> None:

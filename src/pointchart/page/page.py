@@ -1,0 +1,146 @@
+"""The page itself: what it holds, and how it is put together."""
+
+import html
+import json
+import platform
+import re
+from collections.abc import Iterator
+from contextlib import contextmanager, nullcontext
+from dataclasses import dataclass
+from importlib.metadata import version
+from importlib.resources import files
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..io import replacing
+from ..pipeline import Reconstruction
+from ..report import certificate_lines
+from ..typing import Indices, Points
+from .histograms import quality_histograms
+from .pack import packed, quantized, steps
+from .shades import Shade, mesh_shades
+from .thin import thin
+
+MOST_POINTS = 200_000  # drawn: what a phone turns smoothly, and some 10 MB
+PARTS = ("page.css", "unpack.js", "scene.js", "page.js")
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Page:
+    """A page that is ready to be written.
+
+    Attributes
+    ----------
+    text : str
+        HTML.
+    n_points, n_drawn : int
+        Points of the mesh, and those that are drawn.
+    """
+
+    text: str
+    n_points: int
+    n_drawn: int
+
+    @property
+    def size_line(self) -> str:
+        """How large the file is, and how many points it draws.
+
+        >>> Page("x" * 2_500_000, 900_000, 200_000).size_line
+        '2.5 MB, opens offline; 200,000 of 900,000 points drawn'
+        """
+        thinned = f"; {self.n_drawn:,} of {self.n_points:,} points drawn" if self.n_drawn < self.n_points else ""
+        return f"{len(self.text.encode()) / 1e6:.1f} MB, opens offline{thinned}"
+
+
+def lay_out(
+    points: Points, result: Reconstruction, run: dict[str, Any], *, title: str, command: str, most: int = MOST_POINTS
+) -> Page:
+    """Lay out the page of a run.
+
+    Parameters
+    ----------
+    points : (n, 3) array
+        The vertices of the mesh.
+    result : Reconstruction
+    run : dict
+        What `run_report` gives.
+    title : str
+        Name of the scan.
+    command : str
+        The command line that repeats the run.
+    most : int
+        Points to draw; of larger meshes fewer are shown.
+
+    Returns
+    -------
+    Page
+    """
+    shown = thin(points, result.triangles, most)
+    shades = mesh_shades(points, result.triangles, result.uv, result.loop)
+    low, extent = points.min(axis=0), float(np.ptp(points, axis=0).max())
+    arrays: dict[str, NDArray[Any]] = {
+        "position": quantized(points[shown.kept], low, extent),
+        "uv": result.uv[shown.kept].astype(np.float32),
+        "triangles": steps(shown.triangles.ravel()),
+        "loop": steps(shown.along(result.loop)),
+        "row": steps(result.rows[shown.kept]),
+    }
+    described = []
+    for shade in shades:
+        row, arrays[shade.name] = _described(shade, shown.kept)
+        described.append(row)
+    table, data = packed(arrays)
+    content = {
+        "title": title,
+        "command": command,
+        "made_with": f"pointchart {version('pointchart')}, Python {platform.python_version()}, numpy {np.__version__}",
+        "box": {"low": low.tolist(), "extent": extent},
+        "drawn": len(shown.kept),
+        "arrays": table,
+        "shades": described,
+        "checks": [
+            {"passed": line.startswith("[ok]"), "measured": line.startswith("[--]"), "text": line[5:]}
+            for line in certificate_lines(result.certificate)
+        ],
+        "histograms": quality_histograms(points, result.triangles, result.uv, shades[2].values),
+        "run": run,
+    }
+    return Page(_filled(title, content, data), len(points), len(shown.kept))
+
+
+def _described(shade: Shade, kept: Indices) -> tuple[dict[str, Any], NDArray[np.uint16]]:
+    placed = shade.placed
+    low, high = float(placed.min()), float(placed.max())
+    first, last = shade.reach
+    counts, _ = np.histogram(np.clip(placed, first, last), bins=60, range=(first, last))
+    row = {
+        "name": shade.name,
+        "meaning": shade.meaning,
+        "is_signed": shade.is_signed,
+        "is_log": shade.is_log,
+        "range": [low, high],
+        "reach": [first, last],
+        "counts": counts.tolist(),
+    }
+    return row, quantized(placed[kept], low, high - low)
+
+
+def _filled(title: str, content: dict[str, Any], data: str) -> str:
+    """Put everything into the one file; text from outside can end no element."""
+    folder = files(__package__) / "assets"
+    values = {name: (folder / name).read_text("utf-8") for name in PARTS}
+    values |= {"title": html.escape(title), "data": data}
+    values["content"] = json.dumps(content, allow_nan=False).replace("<", "\\u003c")
+    return re.sub(r"{{([\w.]+)}}", lambda place: values[place[1]], (folder / "page.html").read_text("utf-8"))
+
+
+@contextmanager
+def writing_page(path: Path | None, page: Page | None) -> Iterator[None]:
+    """Write a page, if there is one; it is in its place when the block has ended well."""
+    with nullcontext() if path is None else replacing(path) as temporary:
+        if temporary is not None and page is not None:
+            temporary.write_text(page.text, encoding="utf-8")
+        yield

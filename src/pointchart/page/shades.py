@@ -1,0 +1,99 @@
+"""What a mesh can be coloured by: one number a point."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..quality import area_vectors, vertex_stretches
+from ..survey import survey_scan
+from ..typing import UV, Floats, Loop, Points, Triangles
+
+OUTERMOST = 1.0  # per cent of the points at either end, which colours do not tell apart
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Shade:
+    """A measure at each point, and how it is shown.
+
+    Attributes
+    ----------
+    name, meaning : str
+    values : (n,) float64
+    is_signed : bool
+        Whether 0 is in the middle of the colours.
+    is_log : bool
+        Whether equal ratios look equally far apart.
+    """
+
+    name: str
+    meaning: str
+    values: Floats
+    is_signed: bool = False
+    is_log: bool = False
+
+    @property
+    def placed(self) -> Floats:
+        """The values on the scale that is shown, (n,): themselves, or their logarithms."""
+        return np.log(np.maximum(self.values, 1e-300)) if self.is_log else self.values
+
+    @property
+    def reach(self) -> tuple[float, float]:
+        """Where on that scale the colours begin and end.
+
+        >>> Shade("height", "", np.array([-1.0, 0.0, 3.0]), is_signed=True).reach[0] < -2.9
+        True
+        """
+        low, high = np.percentile(self.placed, [OUTERMOST, 100.0 - OUTERMOST]).tolist()
+        if self.is_signed:
+            high = max(abs(low), abs(high))
+            low = -high
+        return (low, high) if low < high else (low - 0.5, high + 0.5)
+
+
+def mesh_shades(points: Points, triangles: Triangles, uv: UV, loop: Loop) -> list[Shade]:
+    """Measure what a mesh is coloured by: deviation, stretch, spacing and boundary score.
+
+    Parameters
+    ----------
+    points : (n, 3) array
+        Distinct points.
+    triangles : (m, 3) int array
+    uv : (n, 2) array
+    loop : (b,) int array
+
+    Returns
+    -------
+    list of Shade
+
+    Examples
+    --------
+    >>> from pointchart import reconstruct, shapes
+    >>> sheet = shapes.grid(12, 9).points
+    >>> made = reconstruct(sheet)
+    >>> deviation, *others = mesh_shades(sheet, made.triangles, made.uv, made.loop)
+    >>> bool(abs(deviation.values).max() < 1e-12), [shade.name for shade in others]
+    (True, ['stretch', 'spacing', 'boundary score'])
+    """
+    survey = survey_scan(points, loop)
+    near, places, scale = survey.vicinity, survey.cloud.places, survey.cloud.scale
+    facing = _vertex_normals(points, triangles)
+    off = scale * (survey.cloud.points - near.smoothed)[places]
+    return [
+        Shade("deviation", "height over the plane of its neighbours", (off * facing).sum(axis=1), is_signed=True),
+        Shade(
+            "stretch",
+            "of the map from the plane to space; 1 is none",
+            vertex_stretches(points, triangles, uv),
+            is_log=True,
+        ),
+        Shade("spacing", "mean distance of the six nearest points", scale * near.spacing[places], is_log=True),
+        Shade("boundary score", "0 inside, 1 on the boundary", survey.scores.total[places]),
+    ]
+
+
+def _vertex_normals(points: Points, triangles: Triangles) -> Floats:
+    vectors, total = area_vectors(points, triangles), np.empty_like(points)
+    for k in range(3):
+        total[:, k] = np.bincount(triangles.ravel(), np.repeat(vectors[:, k], 3), len(points))
+    length = np.linalg.norm(total, axis=1, keepdims=True)
+    return np.asarray(total / np.where(length > 0.0, length, 1.0))

@@ -1,0 +1,324 @@
+"""The page of a run, as a browser shows it."""
+
+import io
+import json
+import re
+
+import numpy as np
+import pytest
+from PIL import Image
+
+import pointchart as pc
+from pointchart import shapes
+from pointchart.clock import StageClock
+from pointchart.mesh import boundary_loops, fans, half_edges
+from pointchart.page import lay_out
+from pointchart.page.pack import packed, quantized, steps
+from pointchart.page.shades import Shade, mesh_shades
+from pointchart.page.thin import thin
+from pointchart.report import run_report
+
+ACCENT = np.array([0xC8, 0x55, 0x3D])
+PAPER = np.array([0xFB, 0xFA, 0xF7])
+
+
+@pytest.fixture(scope="module")
+def made():
+    points = shapes.sculpture(1500).points
+    result = pc.reconstruct(points)
+    run = run_report(points, np.arange(len(points)), result, StageClock(), {"scan": "a.ply"}, boundary_given=False)
+    return points[result.rows], result, run
+
+
+@pytest.fixture(scope="module")
+def page_file(made, tmp_path_factory):
+    points, result, run = made
+    path = tmp_path_factory.mktemp("page") / "run.html"
+    title = "</script><img src=x onerror=alert(1)>&amp;{{data}}.ply"
+    path.write_text(lay_out(points, result, run, title=title, command="pointchart mesh 'a b.ply'").text, "utf-8")
+    return path
+
+
+@pytest.fixture(scope="module")
+def window(browser, page_file):
+    """Open the page from the disk without a network; gather whatever the browser complains of or asks for."""
+    context = browser.new_context(offline=True, viewport={"width": 1200, "height": 900}, color_scheme="light")
+    page, trouble = context.new_page(), []
+    page.on("console", lambda message: trouble.append(message.text) if message.type in ("error", "warning") else None)
+    page.on("pageerror", lambda error: trouble.append(str(error)))
+    page.on("request", lambda request: trouble.append(request.url) if not request.url.startswith("file:") else None)
+    page.goto(page_file.as_uri())
+    page.wait_for_function("document.body.dataset.ready === 'yes'")
+    yield page, trouble
+    context.close()
+
+
+@pytest.fixture
+def opened(window):
+    """Give the page as it was at first, and fail if it asks for something or complains while a test uses it."""
+    page, trouble = window
+    page.check("#rim")
+    page.select_option("#shade", "plain")
+    page.click("#reset")
+    page.keyboard.press("Escape")
+    page.wait_for_timeout(60)
+    yield page
+    assert [text for text in trouble if "GPU stall due to ReadPixels" not in text] == []
+
+
+def seen(page, selector):
+    """Return the colours of a part of the page, and where it begins."""
+    box = page.locator(selector).bounding_box()
+    clip = {key: round(box[key]) for key in ("x", "y", "width", "height")}
+    return np.asarray(Image.open(io.BytesIO(page.screenshot(clip=clip))).convert("RGB"), float), box
+
+
+def disc_of(page):
+    """Return the places of the pixels of the disc that is drawn in the plane, beside the caption and the border."""
+    image, _ = seen(page, "#plane")
+    y, x = np.nonzero(np.abs(image - PAPER).max(axis=2) > 20)
+    height, width = image.shape[:2]
+    is_disc = ((y > 30) | (x > 150)) & (x > 2) & (x < width - 3) & (y > 2) & (y < height - 3)
+    return x[is_disc], y[is_disc]
+
+
+def ring(page, selector):
+    """Return the middle of the ring that is drawn in a pane, in its pixels; the boundary is hidden."""
+    image, _ = seen(page, selector)
+    y, x = np.nonzero(np.abs(image - ACCENT).max(axis=2) < 12)
+    return None if len(x) == 0 else np.array([(x.min() + x.max()) / 2, (y.min() + y.max()) / 2])
+
+
+def without_boundary(page):
+    page.uncheck("#rim")
+    page.wait_for_timeout(60)
+
+
+def test_both_views_are_drawn(opened):
+    for pane, least in (("#space", 0.1), ("#plane", 0.3)):
+        image, _ = seen(opened, pane)
+        assert (np.abs(image - PAPER).max(axis=2) > 20).mean() > least
+
+
+def test_the_plane_shows_the_unit_disc(opened):
+    x, y = disc_of(opened)
+    radius = (x.max() - x.min() + 1) / 2
+    assert abs((y.max() - y.min() + 1) / 2 - radius) < 2
+    assert abs(len(x) / (np.pi * radius**2) - 1) < 0.03
+
+
+def test_a_point_under_the_pointer_lights_up_in_both_views(opened, made):
+    _, result, _ = made
+    without_boundary(opened)
+    x, y = disc_of(opened)
+    box = opened.locator("#plane").bounding_box()
+    middle, radius = np.array([(x.min() + x.max()) / 2, (y.min() + y.max()) / 2]), (x.max() - x.min() + 1) / 2
+    pane = opened.locator("#space").bounding_box()
+    for across, down in ((0.5, 0.5), (0.42, 0.6), (0.55, 0.35)):
+        at = np.array([across * pane["width"], down * pane["height"]])
+        opened.mouse.move(pane["x"] + at[0], pane["y"] + at[1])
+        opened.wait_for_timeout(60)
+        row = int(opened.get_attribute("#readout", "data-vertex"))
+        vertex = int(np.flatnonzero(result.rows == row)[0])
+        assert np.linalg.norm(ring(opened, "#space") - at) < 25  # the nearest vertex is not far
+        place = (ring(opened, "#plane") - middle) / radius * [1, -1]
+        assert np.linalg.norm(place - result.uv[vertex]) < 0.012
+        opened.mouse.move(box["x"] + ring(opened, "#plane")[0], box["y"] + ring(opened, "#plane")[1])
+        opened.wait_for_timeout(60)
+        assert int(opened.get_attribute("#readout", "data-vertex")) == row
+
+
+def test_a_click_holds_the_point_and_escape_lets_go(opened):
+    without_boundary(opened)
+    pane = opened.locator("#plane").bounding_box()
+    opened.mouse.click(pane["x"] + pane["width"] / 2, pane["y"] + pane["height"] / 2)
+    opened.mouse.move(5, 5)
+    opened.wait_for_timeout(60)
+    assert ring(opened, "#space") is not None
+    opened.keyboard.press("Escape")
+    opened.wait_for_timeout(60)
+    assert ring(opened, "#space") is None
+
+
+def test_the_checklist_is_that_of_the_run(opened, made):
+    _, result, run = made
+    checks = opened.locator("#checks li")
+    passed = checks.evaluate_all("rows => rows.filter(r => r.className === 'passed').map(r => r.textContent)")
+    lines = [line[5:] for line in pc.report.certificate_lines(result.certificate) if line.startswith("[ok]")]
+    assert passed == lines
+    assert run["certificate"]["disc"]
+    assert opened.locator("#verdict").inner_text() == "certified disc, uv one-to-one"
+    assert f"{run['certificate']['points']:,} points" in opened.locator("#summary").inner_text()
+
+
+def test_the_arrays_come_back(opened, made):
+    points, result, _ = made
+    arrays = opened.evaluate("Object.fromEntries(Object.entries(scene.arrays).map(([k, v]) => [k, Array.from(v)]))")
+    rows = np.array(arrays["row"])
+    vertex = np.argsort(result.rows)[np.searchsorted(np.sort(result.rows), rows)]
+    assert sorted(rows) == sorted(result.rows)
+    assert np.array_equal(np.array(arrays["uv"], np.float32).reshape(-1, 2), result.uv[vertex].astype(np.float32))
+    extent = np.ptp(points, axis=0).max()
+    places = points.min(axis=0) + np.array(arrays["position"]).reshape(-1, 3) / 65535 * extent
+    assert np.abs(places - points[vertex]).max() <= 0.51 / 65535 * extent
+    ours, theirs = vertex[np.array(arrays["triangles"]).reshape(-1, 3)], result.triangles
+    assert {tuple(np.roll(t, -np.argmin(t))) for t in ours.tolist()} == {
+        tuple(np.roll(t, -np.argmin(t))) for t in theirs.tolist()
+    }
+    assert vertex[arrays["loop"]].tolist() == result.loop.tolist()
+
+
+def test_what_comes_from_outside_is_text(opened):
+    assert opened.locator("h1").inner_text() == "</script><img src=x onerror=alert(1)>&amp;{{data}}.ply"
+    assert opened.locator("img").count() == 0
+    assert opened.locator("#command").inner_text() == "pointchart mesh 'a b.ply'"
+
+
+def test_keys_colour_turn_and_draw_edges(opened):
+    opened.focus("#stage")
+    before, _ = seen(opened, "#space")
+    opened.keyboard.press("3")
+    opened.wait_for_timeout(80)
+    assert opened.input_value("#shade") == "stretch"
+    coloured, _ = seen(opened, "#space")
+    assert np.abs(coloured - before).max() > 50
+    opened.keyboard.press("e")
+    opened.wait_for_timeout(80)
+    assert opened.is_checked("#wires")
+    opened.keyboard.press("e")
+    opened.keyboard.press("ArrowRight")
+    opened.wait_for_timeout(80)
+    turned, _ = seen(opened, "#space")
+    assert np.abs(turned - coloured).max() > 50
+    opened.keyboard.press("r")
+    opened.wait_for_timeout(80)
+    again, _ = seen(opened, "#space")
+    assert np.abs(again - coloured).max() < 2
+
+
+def test_the_wheel_zooms_about_the_pointer(opened):
+    pane = opened.locator("#plane").bounding_box()
+    at = pane["x"] + 0.4 * pane["width"], pane["y"] + 0.6 * pane["height"]
+    opened.mouse.move(*at)
+    opened.wait_for_timeout(60)
+    row = opened.get_attribute("#readout", "data-vertex")
+    opened.mouse.wheel(0, -1200)
+    opened.wait_for_timeout(80)
+    opened.mouse.move(at[0] + 1, at[1])
+    opened.mouse.move(*at)
+    opened.wait_for_timeout(60)
+    assert opened.get_attribute("#readout", "data-vertex") == row
+    assert opened.evaluate("scene.zoom.plane") > 5
+
+
+def test_it_follows_the_system_to_the_dark_and_fits_a_phone(browser, page_file):
+    context = browser.new_context(viewport={"width": 390, "height": 844}, color_scheme="dark", has_touch=True)
+    page = context.new_page()
+    page.goto(page_file.as_uri())
+    page.wait_for_function("document.body.dataset.ready === 'yes'")
+    assert page.evaluate("getComputedStyle(document.body).backgroundColor") == "rgb(20, 25, 30)"
+    assert page.evaluate("document.documentElement.scrollWidth") == 390
+    space, plane = (page.locator(pane).bounding_box() for pane in ("#space", "#plane"))
+    assert plane["y"] >= space["y"] + space["height"] - 2
+    context.close()
+
+
+@pytest.mark.parametrize("most", [100, 400])
+def test_a_thinned_mesh_is_a_disc_with_the_boundary_of_the_whole(made, most):
+    points, result, _ = made
+    shown = thin(points, result.triangles, most)
+    edges = half_edges(shown.triangles, most)
+    n_edges = len(edges.twins) - np.count_nonzero(edges.twins >= 0) // 2
+    assert most - n_edges + len(shown.triangles) == 1
+    assert (fans(edges, most) == 1).all()
+    loop = boundary_loops(edges)[0]
+    along = shown.along(result.loop)
+    assert np.array_equal(np.roll(along, -int(np.argmin(along))), loop)
+    assert np.array_equal(shown.owner[shown.kept], np.arange(most))
+
+
+def test_large_meshes_are_thinned_and_say_so(made):
+    points, result, run = made
+    page = lay_out(points, result, run, title="a", command="", most=300)
+    assert (page.n_drawn, page.n_points) == (300, len(points))
+    assert page.size_line.endswith(f"300 of {len(points):,} points drawn")
+    assert json.loads(re.search(r'id="content">(.*?)</script>', page.text)[1])["drawn"] == 300
+
+
+def test_thirty_thousand_points_take_under_five_megabytes():
+    grid = shapes.sculpture(30_000)
+    result = pc.reconstruct(grid.points)
+    points = grid.points[result.rows]
+    run = run_report(points, np.arange(len(points)), result, StageClock(), {}, boundary_given=False)
+    assert len(lay_out(points, result, run, title="a", command="").text.encode()) < 5e6
+
+
+def test_numbers_are_rounded_to_half_a_level():
+    values = np.random.default_rng(0).uniform(-3.0, 5.0, 1000)
+    back = -3.0 + quantized(values, -3.0, 8.0) * (8.0 / 65535)
+    assert np.abs(back - values).max() <= 4.0 / 65535 * (1 + 1e-9)
+
+
+def test_steps_add_up_to_the_indices():
+    indices = np.random.default_rng(0).integers(0, 2**31, 1000)
+    coded = steps(indices).astype(np.int64)
+    assert np.array_equal(np.cumsum(np.where(coded % 2, -(coded + 1) // 2, coded // 2)), indices)
+
+
+def test_arrays_of_a_page_lie_one_after_the_other():
+    table, _ = packed({"a": np.zeros((4, 3), np.uint16), "b": np.zeros(2, np.float32)})
+    assert [(row["offset"], row["length"]) for row in table] == [(0, 12), (24, 2)]
+
+
+def test_deviations_of_a_plane_are_zero_and_of_a_bump_point_outwards():
+    sheet = shapes.disc(800).points
+    flat = pc.reconstruct(sheet)
+    deviation = mesh_shades(sheet[flat.rows], flat.triangles, flat.uv, flat.loop)[0]
+    assert np.abs(deviation.values).max() < 1e-12
+    inner = int(np.argmin(np.linalg.norm(sheet[flat.rows] - sheet[flat.rows].mean(axis=0), axis=1)))
+    bump = sheet[flat.rows].copy()
+    normal = np.cross(*(bump[flat.triangles[0]][1:] - bump[flat.triangles[0]][0]))
+    bump[inner] += 0.02 * normal / np.linalg.norm(normal)
+    raised = mesh_shades(bump, flat.triangles, flat.uv, flat.loop)[0].values
+    assert np.argmax(raised) == inner
+    assert raised[inner] == pytest.approx(0.02, rel=0.4)
+
+
+@pytest.mark.parametrize("is_signed", [False, True])
+def test_colours_reach_over_all_but_the_outermost_points(is_signed):
+    values = np.random.default_rng(0).normal(size=5000)
+    low, high = Shade("a", "", values, is_signed=is_signed).reach
+    assert 0.975 < ((values >= low) & (values <= high)).mean() <= 1.0
+    assert not is_signed or low == -high
+
+
+def test_the_command_writes_a_page_and_a_failed_one_none(tmp_path, command_line):
+    scan, out, page = tmp_path / "scan.xyz", tmp_path / "mesh.ply", tmp_path / "run.html"
+    np.savetxt(scan, shapes.disc(300).points)
+    code, _, said = command_line("mesh", scan, "-o", out, "--html", page)
+    assert code == 0
+    assert f"{page}: " in said
+    assert "opens offline" in said
+    assert "--html" in page.read_text("utf-8")
+    page.unlink()
+    np.savetxt(scan, np.vstack([shapes.disc(300).points, shapes.disc(300).points + 50.0]))
+    assert command_line("mesh", scan, "-o", tmp_path / "other.ply", "--html", page)[0] == 1
+    assert not page.exists()
+    assert not (tmp_path / "other.ply").exists()
+
+
+def test_a_page_has_to_be_html_and_no_input(tmp_path, command_line):
+    scan = tmp_path / "scan.xyz"
+    np.savetxt(scan, shapes.disc(300).points)
+    code, _, said = command_line("mesh", scan, "-o", tmp_path / "a.ply", "--html", tmp_path / "a.pdf")
+    assert code == 1
+    assert "the suffix '.pdf' cannot be written here; choose one of .html, .htm" in said
+
+
+def test_a_full_disk_leaves_neither_page_nor_mesh(tmp_path, command_line, full_disk):
+    scan = tmp_path / "scan.xyz"
+    np.savetxt(scan, shapes.disc(300).points)
+    code, _, said = command_line("mesh", scan, "-o", tmp_path / "a.ply", "--html", tmp_path / "a.html")
+    assert code == 1
+    assert "No space left on device" in said
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["scan.xyz"]
