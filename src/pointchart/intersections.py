@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike
 
 from ._check import check_points, check_triangles
 from ._kernels.intersections import find_meetings
+from ._parallel import over_ranges
 from .morton import morton_order
 from .typing import Floats, Indices, Points, Triangles
 
@@ -56,12 +57,18 @@ def self_intersections(points: ArrayLike, triangles: ArrayLike) -> Indices:
     order = morton_order(scaled[faces[:, 0]])
     ordered = faces[order]
     boxes = box_tree(*(scaled[corners] for corners in ordered.T))
-    found = np.empty((len(faces), 3), np.int64)
-    count = find_meetings(scaled, ordered, boxes, found)
-    if count > len(found):
-        found = np.empty((count, 3), np.int64)
-        find_meetings(scaled, ordered, boxes, found)
-    found = found[:count]
+    parts: dict[int, Indices] = {}
+
+    def find(first: int, last: int) -> None:
+        found = np.empty((last - first, 3), np.int64)
+        count = find_meetings(scaled, ordered, boxes, first, last, found)
+        if count > len(found):
+            found = np.empty((count, 3), np.int64)
+            find_meetings(scaled, ordered, boxes, first, last, found)
+        parts[first] = found[:count].copy()
+
+    over_ranges(find, len(faces))
+    found = np.concatenate([parts[first] for first in sorted(parts)])
     meets = [bool(sure) or _meet(cloud[ordered[t]], cloud[ordered[u]]) for t, u, sure in found.tolist()]
     pairs = np.sort(order[found[meets, :2]], axis=1)
     return pairs[np.lexsort(pairs.T[::-1])]

@@ -2,6 +2,8 @@
 
 import numpy as np
 
+from ._kernels.quality import measure_areas, measure_plane_areas, measure_shapes, measure_stretches
+from ._parallel import over_ranges
 from .mesh import HalfEdges
 from .morton import morton_order
 from .neighbors import BoxTree
@@ -41,6 +43,34 @@ def area_vectors(points: Points, triangles: Triangles) -> Floats:
     return np.asarray(0.5 * np.cross(b - a, c - a))
 
 
+def areas(points: Points, triangles: Triangles) -> Floats:
+    """Measure the area of each triangle, (m,), in the unit of the points squared.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> areas(np.array([[0.0, 0, 0], [2, 0, 0], [0, 1, 0]]), np.array([[0, 1, 2]]))
+    array([1.])
+    """
+    area = np.empty(len(triangles))
+    over_ranges(lambda first, last: measure_areas(points, triangles, first, last, area), len(triangles))
+    return area
+
+
+def plane_areas(uv: UV, triangles: Triangles) -> Floats:
+    """Measure the area of each triangle in the plane, (m,), negative for those that turn clockwise.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> plane_areas(np.array([[0.0, 0], [2, 0], [0, 1]]), np.array([[0, 1, 2], [0, 2, 1]]))
+    array([ 1., -1.])
+    """
+    area = np.empty(len(triangles))
+    over_ranges(lambda first, last: measure_plane_areas(uv, triangles, first, last, area), len(triangles))
+    return area
+
+
 def dihedral_angles(points: Points, triangles: Triangles, edges: HalfEdges) -> Floats:
     """Measure by how much the surface turns at each inner edge: 0 where it is flat, pi where it folds back, in radians.
 
@@ -68,11 +98,9 @@ def radius_ratios(points: Points, triangles: Triangles) -> Floats:
     >>> radius_ratios(np.array([[0.0, 0, 0], [1, 0, 0], [0.5, 0.75**0.5, 0]]), np.array([[0, 1, 2]])).round(12)
     array([1.])
     """
-    corner = points[triangles]
-    a, b, c = (np.linalg.norm(corner[:, (k + 1) % 3] - corner[:, (k + 2) % 3], axis=1) for k in range(3))
-    product = a * b * c
-    # Twice the inradius over the circumradius is (b + c - a)(c + a - b)(a + b - c) / (a b c).
-    return np.asarray((b + c - a) * (c + a - b) * (a + b - c) / np.where(product > 0.0, product, 1.0))
+    ratios = np.empty(len(triangles))
+    over_ranges(lambda first, last: measure_shapes(points, triangles, first, last, ratios), len(triangles))
+    return ratios
 
 
 def smallest_angles(points: Points, triangles: Triangles) -> Floats:
@@ -112,19 +140,13 @@ def stretches(points: Points, triangles: Triangles, uv: UV) -> tuple[Floats, Flo
     >>> [s.round(12) for s in stretches(flat, np.array([[0, 1, 2]]), flat[:, :2] / 8)]
     [array([1.]), array([1.])]
     """
-    p, q = points[triangles], uv[triangles]
-    e1, e2, f1, f2 = p[:, 1] - p[:, 0], p[:, 2] - p[:, 0], q[:, 1] - q[:, 0], q[:, 2] - q[:, 0]
-    determinant = f1[:, 0] * f2[:, 1] - f1[:, 1] * f2[:, 0]
-    area = np.linalg.norm(area_vectors(points, triangles), axis=1).sum()
-    scale = np.sqrt(0.5 * np.abs(determinant).sum() / area)
-    safe = np.where(determinant != 0.0, determinant, np.nan)
-    # Stretches beyond what doubles hold count as those of flat triangles.
-    with np.errstate(over="ignore", invalid="ignore"):
-        ds = scale * (f2[:, 1:] * e1 - f1[:, 1:] * e2) / safe[:, None]
-        dt = scale * (f1[:, :1] * e2 - f2[:, :1] * e1) / safe[:, None]
-        a, b, c = (np.einsum("ij,ij->i", x, y) for x, y in ((ds, ds), (ds, dt), (dt, dt)))
-        root = np.hypot(a - c, 2.0 * b)
-        return np.sqrt(0.5 * (a + c + root)), np.sqrt(np.maximum(0.5 * (a + c - root), 0.0))
+    scale = np.sqrt(np.abs(plane_areas(uv, triangles)).sum() / areas(points, triangles).sum())
+    largest, smallest = np.empty(len(triangles)), np.empty(len(triangles))
+    over_ranges(
+        lambda first, last: measure_stretches(points, triangles, uv, scale, first, last, largest, smallest),
+        len(triangles),
+    )
+    return largest, smallest
 
 
 def vertex_stretches(points: Points, triangles: Triangles, uv: UV) -> Floats:
@@ -148,7 +170,7 @@ def vertex_stretches(points: Points, triangles: Triangles, uv: UV) -> Floats:
     square = 0.5 * (largest**2 + smallest**2)
     is_finite = np.isfinite(square)
     square[~is_finite] = 100.0 * square[is_finite].max(initial=1.0)
-    area = np.linalg.norm(area_vectors(points, triangles), axis=1)
+    area = areas(points, triangles)
     corners = triangles.ravel()
     total = np.bincount(corners, np.repeat(area * square, 3), len(points))
     around = np.bincount(corners, np.repeat(area, 3), len(points))
@@ -163,7 +185,7 @@ def l2_stretch(points: Points, triangles: Triangles, uv: UV) -> float:
     Sander, Snyder, Gortler and Hoppe 2001, section 3.
     """
     largest, smallest = stretches(points, triangles, uv)
-    area = np.linalg.norm(area_vectors(points, triangles), axis=1)
+    area = areas(points, triangles)
     mean = np.sum(area * 0.5 * (largest**2 + smallest**2)) / area.sum()
     return float(np.sqrt(mean)) if np.isfinite(mean) else float("inf")
 
@@ -243,9 +265,7 @@ def area_distortions(points: Points, triangles: Triangles, uv: UV) -> Floats:
 
 def _area_ratios(points: Points, triangles: Triangles, uv: UV) -> Floats:
     """Divide the area of each triangle by that of its image, after scaling as for `stretches`; infinite if flat."""
-    area = np.linalg.norm(area_vectors(points, triangles), axis=1)
-    e1, e2 = (uv[triangles[:, k]] - uv[triangles[:, 0]] for k in (1, 2))
-    image = 0.5 * np.abs(e1[:, 0] * e2[:, 1] - e1[:, 1] * e2[:, 0])
+    area, image = areas(points, triangles), np.abs(plane_areas(uv, triangles))
     share, image_share = area / area.sum(), image / image.sum()
     return np.asarray(np.divide(share, image_share, out=np.full(len(triangles), np.inf), where=image_share > 0.0))
 

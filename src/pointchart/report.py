@@ -19,7 +19,7 @@ from .io import replacing
 from .pipeline import Reconstruction
 from .quality import (
     area_distortions,
-    area_vectors,
+    areas,
     conformal_distortions,
     l2_stretch,
     least_distance,
@@ -178,7 +178,7 @@ def quality_report(points: Points, triangles: Triangles, uv: UV) -> dict[str, An
     `mean` and `percentile_95` weigh triangles by their area in space.
     """
     ratios = radius_ratios(points, triangles)
-    area = np.linalg.norm(area_vectors(points, triangles), axis=1)
+    area = areas(points, triangles)
     return {
         "radius_ratio": {"least": float(ratios.min()), "median": float(np.median(ratios))},
         "l2_stretch": _finite(l2_stretch(points, triangles, uv)),

@@ -88,14 +88,14 @@ def overlap(boxes, v, box):
 
 
 @njit(cache=True, nogil=True)
-def find_meetings(points, triangles, boxes, pairs):
-    """Write the pairs of triangles without a common corner that meet, and whether that is sure; return their number.
+def find_meetings(points, triangles, boxes, first, last, pairs):
+    """Write which triangles first..last meet later ones without a common corner, and if that is sure; return how many.
 
     Node v of the tree of boxes has the children 2v and 2v + 1; the last of its levels, of half its size, are those of
     the triangles. Pairs are counted further when there is no room for them.
     """
     leaves, count = len(boxes) // 2, 0
-    for i in range(len(triangles)):
+    for i in range(first, last):
         one = (triangles[i, 0], triangles[i, 1], triangles[i, 2])
         v = leaves + i
         box = (boxes[v, 0], boxes[v, 1], boxes[v, 2], boxes[v, 3], boxes[v, 4], boxes[v, 5])
