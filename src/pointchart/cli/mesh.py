@@ -59,7 +59,7 @@ def mesh(
     """Mesh a scan of one surface patch: a triangle mesh on exactly its points, certified to be a disc, with uv."""
     from .._parallel import on_threads
     from ..errors import points_called
-    from ..io import MESH_SUFFIXES, write_mesh
+    from ..io import MESH_SUFFIXES, check_digits, write_mesh
     from ..page import lay_out, writing_page
     from ..pipeline import reconstruct
     from ..quality import vertex_stretches
@@ -74,6 +74,7 @@ def mesh(
     inputs = read_inputs(
         scan, boundary, named, out=out, suffixes=MESH_SUFFIXES, report=report, html=html, component=component
     )
+    check_digits(out, inputs.points)
     with staged(quiet) as clock, points_called(inputs.rows):
         result = reconstruct(
             inputs.points,

@@ -22,6 +22,7 @@ from .table import write_rows
 _MeshWriter: TypeAlias = Callable[[Path, Points, Triangles, UV | None, Attributes], list[str]]
 _UVWriter: TypeAlias = Callable[[Path, UV, Points | None, Attributes], list[str]]
 _Writer = TypeVar("_Writer")
+SINGLE = {".stl": "STL", ".glb": "GLB"}  # formats of single precision
 
 
 def write_mesh(
@@ -60,6 +61,30 @@ def write_mesh(
     kept = _checked(points, uv, attributes)
     with replacing(path) as temporary:
         return write(temporary, points, triangles, uv, kept)
+
+
+def check_digits(path: AnyPath, points: Points) -> None:
+    """Check before a long run that the file will tell all points apart, which single precision may not.
+
+    Parameters
+    ----------
+    path
+        The mesh that is to be written.
+    points
+        (n, 3).
+
+    Raises
+    ------
+    FormatError
+        The format makes points coincide that are distinct.
+
+    Examples
+    --------
+    >>> check_digits("far.ply", np.array([[5e6, 0.0, 0.0], [5e6 + 0.1, 0.0, 0.0]]))
+    """
+    kind = SINGLE.get(Path(path).suffix.lower())
+    if kind is not None:
+        _digits_lost(kind, points)
 
 
 def write_curves(
