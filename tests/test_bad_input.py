@@ -591,7 +591,9 @@ def test_a_mesh_that_its_format_cannot_hold_leaves_no_report(run, folder):
 @pytest.mark.parametrize("out", ["out.stl", "out.GLB"])
 def test_a_format_that_cannot_hold_the_scan_is_refused_before_the_run(run, folder, out):
     far = 1e-9 * shapes.disc(300, seed=1).points + [1, 0, 0]
-    np.save(folder / "scan.npy", np.vstack([far, far + [0, 1, 0]]))  # in two parts, which the run would refuse
+    np.save(
+        folder / "scan.npy", np.vstack([far, far + np.array([0, 1, 0])])
+    )  # in two parts, which the run would refuse
     code, err = run("mesh", "scan.npy", "-o", out, "--quiet")
     assert code == 1
     assert "holds single precision, which makes " in err

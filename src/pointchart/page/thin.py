@@ -78,10 +78,14 @@ def _distinct(triangles: Triangles, n_points: int) -> Triangles:
 
 def _share_out(triangles: Triangles, owner: Indices) -> None:
     """Give points the owner of a neighbour, round by round."""
-    pairs = np.concatenate([triangles[:, [a, b]] for a in range(3) for b in range(3) if a != b])
+    open_triangles = triangles
     while True:
-        pairs = pairs[owner[pairs[:, 1]] < 0]
-        giving = owner[pairs[:, 0]] >= 0
-        if not giving.any():
+        owners = owner[open_triangles]
+        has_one, has_all = (owners >= 0).any(axis=1), (owners >= 0).all(axis=1)
+        if not (has_one & ~has_all).any():
             return
-        owner[pairs[giving, 1]] = owner[pairs[giving, 0]]
+        giver = np.take_along_axis(owners, np.argmax(owners >= 0, axis=1)[:, None], axis=1)[:, 0]
+        for k in range(3):
+            takes = has_one & (owners[:, k] < 0)
+            owner[open_triangles[takes, k]] = giver[takes]
+        open_triangles = open_triangles[~has_all]
