@@ -322,3 +322,19 @@ def test_a_full_disk_leaves_neither_page_nor_mesh(tmp_path, command_line, full_d
     assert code == 1
     assert "No space left on device" in said
     assert sorted(path.name for path in tmp_path.iterdir()) == ["scan.xyz"]
+
+
+def test_the_page_of_a_surface_tells_its_deviation(tmp_path, command_line, browser):
+    scan, page_file, report = tmp_path / "scan.xyz", tmp_path / "run.html", tmp_path / "run.json"
+    np.savetxt(scan, shapes.hemisphere(400).points)
+    words = ["--tolerance", "2%", "--html", page_file, "--report", report, "--quiet"]
+    assert command_line("fit", scan, "-o", tmp_path / "surface.json", *words)[0] == 0
+    page = browser.new_page()
+    page.goto(page_file.as_uri())
+    page.wait_for_function("document.body.dataset.ready === 'yes'")
+    surface = json.loads(report.read_text())["surface"]
+    assert page.input_value("#shade") == "deviation"
+    assert " \N{MULTIPLICATION SIGN} ".join(map(str, surface["control_points"])) in page.locator("#fit").inner_text()
+    low, high = page.evaluate("content.shades[0].range")
+    assert max(-low, high) == pytest.approx(surface["deviation"]["max"])
+    page.close()

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 from ..components import largest_component
 from ..errors import InputError
 from ..io import Scan, check_output, read_loop, read_scan
+from ..page import PAGE_SUFFIXES
 from ..typing import UV, Indices, Loop, Points
 from .words import Component
 
@@ -78,7 +79,7 @@ def read_inputs(
 ) -> Inputs:
     """Check the output, the report and the page, then read the scan and the boundary, if one is given."""
     taken = [scan] if boundary is None else [scan, boundary]
-    for path, allowed in ((out, suffixes), (report, (".json",)), (html, (".html", ".htm"))):
+    for path, allowed in ((out, suffixes), (report, (".json",)), (html, PAGE_SUFFIXES)):
         if path is not None:
             check_output(path, suffixes=allowed, inputs=taken)
             taken.append(path)

@@ -48,12 +48,7 @@ def mesh(
     ] = Chart.mesh,
     threads: given.ThreadsOption = None,
     report: given.ReportOption = None,
-    html: Annotated[
-        Path | None,
-        typer.Option(
-            "--html", metavar="RUN.html", help="Write a page that opens offline: mesh and uv to turn and point at."
-        ),
-    ] = None,
+    html: given.HtmlOption = None,
     quiet: given.QuietOption = False,
 ) -> None:
     """Mesh a scan of one surface patch: a triangle mesh on exactly its points, certified to be a disc, with uv."""

@@ -74,4 +74,10 @@ ThreadsOption = Annotated[
 ReportOption = Annotated[
     Path | None, typer.Option("--report", metavar="RUN.json", help="Write what was done and proved as JSON.")
 ]
+HtmlOption = Annotated[
+    Path | None,
+    typer.Option(
+        "--html", metavar="RUN.html", help="Write a page that opens offline: mesh and uv to turn and point at."
+    ),
+]
 QuietOption = Annotated[bool, typer.Option("--quiet", "-q", help="Say nothing but errors.")]

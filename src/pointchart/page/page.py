@@ -18,13 +18,14 @@ from numpy.typing import NDArray
 from ..io import replacing
 from ..pipeline import Reconstruction
 from ..report import certificate_lines
-from ..typing import Indices, Points
+from ..typing import Floats, Indices, Points
 from .histograms import quality_histograms
 from .pack import packed, quantized, steps
 from .shades import Shade, mesh_shades
 from .thin import thin
 
 MOST_POINTS = 200_000  # drawn: what a phone turns smoothly, and some 10 MB
+PAGE_SUFFIXES = (".html", ".htm")
 PARTS = ("page.css", "unpack.js", "scene.js", "page.js")
 
 
@@ -56,7 +57,14 @@ class Page:
 
 
 def lay_out(
-    points: Points, result: Reconstruction, run: dict[str, Any], *, title: str, command: str, most: int = MOST_POINTS
+    points: Points,
+    result: Reconstruction,
+    run: dict[str, Any],
+    *,
+    title: str,
+    command: str,
+    deviation: Floats | None = None,
+    most: int = MOST_POINTS,
 ) -> Page:
     """Lay out the page of a run.
 
@@ -71,6 +79,8 @@ def lay_out(
         Name of the scan.
     command : str
         The command line that repeats the run.
+    deviation : (n,) array, optional
+        Signed, from a surface that was fitted, of which `run` tells.
     most : int
         Points to draw; of larger meshes fewer are shown.
 
@@ -79,7 +89,7 @@ def lay_out(
     Page
     """
     shown = thin(points, result.triangles, most)
-    shades = mesh_shades(points, result.triangles, result.uv, result.loop)
+    shades = mesh_shades(points, result.triangles, result.uv, result.loop, deviation=deviation)
     low, extent = points.min(axis=0), float(np.ptp(points, axis=0).max())
     arrays: dict[str, NDArray[Any]] = {
         "position": quantized(points[shown.kept], low, extent),

@@ -50,7 +50,9 @@ class Shade:
         return (low, high) if low < high else (low - 0.5, high + 0.5)
 
 
-def mesh_shades(points: Points, triangles: Triangles, uv: UV, loop: Loop) -> list[Shade]:
+def mesh_shades(
+    points: Points, triangles: Triangles, uv: UV, loop: Loop, *, deviation: Floats | None = None
+) -> list[Shade]:
     """Measure what a mesh is coloured by: deviation, stretch, spacing and boundary score.
 
     Parameters
@@ -60,6 +62,8 @@ def mesh_shades(points: Points, triangles: Triangles, uv: UV, loop: Loop) -> lis
     triangles : (m, 3) int array
     uv : (n, 2) array
     loop : (b,) int array
+    deviation : (n,) array, optional
+        Signed, from a surface that was fitted; from the plane of a point's neighbours, if not given.
 
     Returns
     -------
@@ -76,10 +80,13 @@ def mesh_shades(points: Points, triangles: Triangles, uv: UV, loop: Loop) -> lis
     """
     survey = survey_scan(points, loop)
     near, places, scale = survey.vicinity, survey.cloud.places, survey.cloud.scale
-    facing = _vertex_normals(points, triangles)
-    off = scale * (survey.cloud.points - near.smoothed)[places]
+    meaning = "from the surface, positive on the side of its normal"
+    if deviation is None:
+        off = scale * (survey.cloud.points - near.smoothed)[places]
+        deviation = np.einsum("ij,ij->i", off, _vertex_normals(points, triangles))
+        meaning = "height over the plane of its neighbours"
     return [
-        Shade("deviation", "height over the plane of its neighbours", (off * facing).sum(axis=1), is_signed=True),
+        Shade("deviation", meaning, deviation, is_signed=True),
         Shade(
             "stretch",
             "of the map from the plane to space; 1 is none",

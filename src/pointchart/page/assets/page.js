@@ -77,11 +77,30 @@ function tell() {
     ["points relocated", whole(run.swaps.relocated_points)],
     ["solve of uv", `${solve.method}, residual ${digits(solve.residual)}`],
   ]));
+  if (run.surface) tellOfSurface(run.surface);
   $("command").textContent = content.command;
   $("made").textContent = content.made_with;
   $("options").append(table(Object.entries(run.options).filter(([, value]) => value !== null).map(([name, value]) => [name, String(value)])));
   const all_points = proof.points;
   $("drawn").textContent = content.drawn < all_points ? `${whole(content.drawn)} of ${whole(all_points)} points are drawn, so that the page turns smoothly; all numbers are of all points.` : "";
+}
+
+function tellOfSurface(surface) {
+  $("surface").hidden = false;
+  const off = surface.deviation, length = (x) => `${digits(x)} ${surface.unit}`;
+  const isMet = surface.met ? "met" : "not met";
+  $("fit").append(table([
+    ["B-spline surface of degree", String(surface.degree)],
+    ["control points", surface.control_points.join(" × ")],
+    ["points a control point", digits(surface.points_a_control_point)],
+    ["trimmed by", surface.trimming_loops.length > 1 ? `its boundary and ${surface.trimming_loops.length - 1} gaps` : "its boundary"],
+    [`tolerance, but for ${digits(100 * surface.outliers)} %`, `${length(surface.tolerance)}, ${isMet}`],
+    ["largest deviation", length(off.max)],
+    [`the same but for ${digits(100 * surface.outliers)} %`, length(off.max_but_outliers)],
+    ["95 %", length(off.percentile_95)],
+    ["RMS, mean", `${length(off.rms)}, ${length(off.mean)}`],
+    ["points within the tolerance", `${digits(100 * off.share_within_tolerance)} %`],
+  ]));
 }
 
 function colorsOf(shade) {
@@ -244,7 +263,7 @@ async function begin() {
     const arrays = await unpack();
     window.scene = new Scene($("canvas"), { space: $("space"), plane: $("plane") }, arrays);
     handle(window.scene, arrays);
-    show(window.scene, arrays, "plain");
+    show(window.scene, arrays, run.surface ? "deviation" : "plain");
     document.body.dataset.ready = "yes";
   } catch (error) {
     Object.assign($("trouble"), { hidden: false, textContent: error.message });
