@@ -18,9 +18,9 @@ from pointchart._kernels import nearest as trees
 from pointchart._kernels.unsigned import unsigned
 from pointchart.boundary import patchwork
 from pointchart.fit import fit_radial, interpolate_clough_tocher
+from pointchart.hierarchy import split
 from pointchart.intersections import box_tree
 from pointchart.mesh import half_edges, one_rings, start_draft
-from pointchart.multigrid import _split
 from pointchart.neighbors import BoxTree, Neighborhoods, nearest, spacing
 from pointchart.shapes import disc, moebius, relief
 from pointchart.stars import delaunay_star, normals
@@ -144,7 +144,7 @@ def joining(t):
 
 LINE = sp.diags_array([-1.0, 2.1, -1.2], offsets=[-1, 0, 1], shape=(15, 15))
 SYSTEM = sp.csr_array(sp.kron(LINE, sp.eye_array(15)) + sp.kron(sp.eye_array(15), LINE))
-FINE = _split(SYSTEM)
+FINE = split(SYSTEM)
 STRONG = bools(len(FINE.data))
 coarsen.mark_strong.py_func(FINE.indptr, FINE.data, STRONG)
 DEPENDENT = ints(226), int32s(len(STRONG))
@@ -216,7 +216,7 @@ def thinned_out():
 
 def swept():
     """Return the rows of the long system without their diagonal, and its inverse, as sweeps take them."""
-    rows = _split(BAND)
+    rows = split(BAND)
     return *light(*rows[:3]), rows.data.astype(np.float32), (1.0 / rows.diagonal).astype(np.float32)
 
 

@@ -9,8 +9,9 @@ from pointchart._kernels import multigrid as kernels
 from pointchart._kernels.unsigned import unsigned
 from pointchart._parallel import on_threads
 from pointchart.errors import SolveError
+from pointchart.hierarchy import _in_singles, split
 from pointchart.mesh import one_rings
-from pointchart.multigrid import TOLERANCE, _in_singles, _split, multigrid
+from pointchart.multigrid import TOLERANCE, multigrid
 from pointchart.shapes import disc, relief
 from pointchart.solve import direct, solve_fixed
 from pointchart.weights import mean_value
@@ -161,7 +162,7 @@ def test_the_solution_is_the_same_to_the_last_bit_on_any_number_of_threads(monke
 
 def swept(left, known, n_blocks, order):
     """Sweep forwards and backwards over ranges of blocks in some order; return what is found, left over and better."""
-    rows, n = _in_singles(_split(left)), len(known)
+    rows, n = _in_singles(split(left)), len(known)
     found, rest, better = (np.full_like(known, np.nan) for _ in range(3))
     ranges = [(first, min(first + n_blocks * kernels.BLOCK, n)) for first in range(0, n, n_blocks * kernels.BLOCK)]
     for kernel, arrays in (
