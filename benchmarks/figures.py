@@ -2,8 +2,8 @@
 
     python benchmarks/figures.py OUT_DIR [--data DIR] [--only 5 8]
 
-The scans lie beside the checkout, in ../shared/data; where they are missing, only Figures 1 to 3 are drawn.
-Stanford's terms keep pictures of its bunny (Figure 7) from being sold, so they are drawn on the reader's machine only.
+The scans lie beside the checkout, in ../shared/data; where they are missing, only Figures 1 to 3 and 7 are drawn.
+Stanford's terms keep pictures of its bunny from being sold, so Figure 7 shows a simulated rabbit.
 """
 
 import argparse
@@ -17,69 +17,50 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.collections import LineCollection, PolyCollection
+from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle
-from paper_scans import DATA, Scan, load_scans, run
+from paper_scans import DATA, Scan, from_truth, load_scans, run
 from PIL import Image
+from rabbit import rabbit
 
 from pointchart.boundary import chord_length_steps, on_circle, order_by_halves
-from pointchart.mesh import half_edges
+from pointchart.figures import camera
 from pointchart.neighbors import Neighborhoods, ball
 from pointchart.parameterize import parameterize
-from pointchart.quality import area_vectors, edge_lengths
+from pointchart.picture import ACCENT, INK, STONE, paint_loop, paint_triangles, paint_wires
 from pointchart.shapes import Shape, add_noise, disc
 from pointchart.stars import delaunay_star
 from pointchart.swaps import swap_to_delaunay
 from pointchart.triangulate import triangulate
-from pointchart.typing import UV, Floats, Points, Triangles
+from pointchart.typing import UV, Loop, Points, Triangles
 from pointchart.weights import reciprocal_distance
 
-INK, GREY, PALE = "#1f2a37", "#a3adb8", "#dfe9f1"
-BLUE, ORANGE = "#2f6f9f", "#d1703c"  # what a picture is about, and what it is compared with
-FRONT, BACK = np.array([0.80, 0.88, 0.94]), np.array([0.90, 0.66, 0.50])
-LIGHT = np.array([-0.40, 0.45, 0.80]) / np.linalg.norm([-0.40, 0.45, 0.80])
-DPI = 150
-LAST_WITHOUT_SCANS = 3  # the captions of later figures name real scans
+GREY, PALE, BLUE = "#a3adb8", "#dfe9f1", "#2f6f9f"
+DPI, FINER, COLORS = 130, 3, 88
+WITHOUT_SCANS = (1, 2, 3, 7)  # the captions of the others name real scans
 
-# The direction towards the eye, and the one that is upwards in the picture.
-VIEWS = {
-    "Foot": ((1.0, -0.9, 0.8), (0.0, 0.0, 1.0)),
-    "Spock": ((0.45, 0.1, 1.0), (0.0, 1.0, 0.0)),
-    "Bunny": ((-0.1, 0.15, 1.0), (0.0, 1.0, 0.0)),
+# How far we walk around a scan and look down on it, in degrees, and the axis that is upwards.
+VIEWS: dict[str, tuple[tuple[float, float], str]] = {
+    "Foot": ((48.0, 31.0), "z"),
+    "Spock": ((24.0, 5.0), "y"),
+    "Rabbit": ((25.0, 12.0), "y"),
 }
-EARS = ((0.02, 0.58), (0.55, 1.02))  # of the picture's width and height
+EARS = ((0.05, 0.75), (0.56, 1.01))  # of the picture's width and height
 
 
-def camera(label: str) -> Floats:
-    """Return the rows right, up and towards the eye."""
-    eye, up = (np.array(vector) for vector in VIEWS[label])
-    eye = eye / np.linalg.norm(eye)
-    right = np.cross(up, eye)
-    right /= np.linalg.norm(right)
-    return np.stack([right, np.cross(eye, right), eye])
-
-
-def draw_mesh(ax: Axes, points: Points, triangles: Triangles, label: str, line_width: float = 0.2) -> None:
-    """Shade a mesh, the far triangles first; backs have another colour."""
-    seen = points @ camera(label).T
-    normal = area_vectors(seen, triangles)
-    normal /= np.maximum(np.linalg.norm(normal, axis=1), 1e-300)[:, None]
-    is_front = normal[:, 2] > 0.0
-    toward = np.where(is_front[:, None], normal, -normal)
-    shade = 0.30 + 0.70 * np.clip(toward @ LIGHT, 0.0, 1.0)
-    color = np.where(is_front[:, None], FRONT, BACK) * shade[:, None]
-    order = np.argsort(seen[triangles, 2].mean(axis=1))
-    corners = seen[triangles[order], :2]
-    edge = 0.55 * color[order]
-    ax.add_collection(PolyCollection(corners, facecolors=color[order], edgecolors=edge, linewidths=line_width))
+def draw_mesh(ax: Axes, points: Points, triangles: Triangles, label: str, line_width: float = 0.15) -> None:
+    """Shade a mesh with its edges."""
+    view, up = VIEWS[label]
+    seen = points @ camera(points, triangles, view=view, up=up).T
+    paint_triangles(ax, seen, triangles, STONE, line_width=line_width, line_tint=0.55)
     frame(ax, seen[:, :2])
 
 
-def draw_parameters(ax: Axes, uv: UV, triangles: Triangles, line_width: float = 0.15) -> None:
-    """Draw the triangulation of the parameters."""
-    ends = edge_lengths(np.c_[uv, np.zeros(len(uv))], half_edges(triangles, len(uv)))[0]
-    ax.add_collection(LineCollection(uv[ends], colors=INK, linewidths=line_width))
+def draw_parameters(ax: Axes, uv: UV, triangles: Triangles, loop: Loop, line_width: float = 0.15) -> None:
+    """Draw the triangulation of the parameters, its boundary in colour."""
+    paint_wires(ax, uv, triangles, line_width=line_width)
+    paint_loop(ax, uv[loop], line_width=1.2)
     frame(ax, uv)
 
 
@@ -92,9 +73,9 @@ def frame(ax: Axes, seen: UV) -> None:
     ax.axis("off")
 
 
-def panels(rows: int, columns: int, side: float) -> tuple[Figure, list[Axes]]:
+def panels(rows: int, columns: int, side: float, *, height: float = 1.0) -> tuple[Figure, list[Axes]]:
     figure, axes = plt.subplots(
-        rows, columns, figsize=(columns * side, rows * side), layout="constrained", squeeze=False
+        rows, columns, figsize=(columns * side, rows * side * height), layout="constrained", squeeze=False
     )
     return figure, list(axes.flat)
 
@@ -155,32 +136,34 @@ def draw_balls(
     """Draw points, the balls around some of them, and which points they hold."""
     around = ball(np.c_[points, np.zeros(len(points))], radius)
     held = sorted({j for center in centers for j in row(around, center)} - set(centers)) if chosen is None else chosen
-    for center, color in zip(centers, (BLUE, ORANGE), strict=False):
+    for center, color in zip(centers, (BLUE, ACCENT), strict=False):
         if fill:
             ax.add_patch(Circle(points[center], radius, facecolor=color, alpha=0.12, linewidth=0.0))
         ax.add_patch(Circle(points[center], radius, fill=False, edgecolor=color, linewidth=1.4, linestyle="--"))
     ax.scatter(*points.T, s=30, color=GREY, zorder=3)
     ax.scatter(*points[held].T, s=42, color=INK, zorder=4)
-    ax.scatter(*points[centers].T, s=95, c=[BLUE, ORANGE][: len(centers)], edgecolors="white", zorder=5)
+    ax.scatter(*points[centers].T, s=95, c=[BLUE, ACCENT][: len(centers)], edgecolors="white", zorder=5)
     frame(ax, points)
 
 
 def figure_4(scans: dict[str, Scan]) -> Figure:
     """Draw the boundary of the foot, cut by a plane, each half in the order of its univariate parameters."""
     scan = scans["Foot"]
-    figure, (ax,) = panels(1, 1, 6.0)
+    figure, (ax,) = panels(1, 1, 6.0, height=0.82)
     members = np.random.default_rng(0).permutation(scan.loop)
     ordered = scan.points[order_by_halves(scan.points, members)]
     centred = ordered - ordered.mean(axis=0)
     axes = np.linalg.svd(centred, full_matrices=False)[2]
     flat = centred @ axes[:2].T
     is_upper = flat[:, 0] >= 0.0
-    is_upper = is_upper if is_upper[0] else ~is_upper
-    for half, color in ((flat[is_upper], BLUE), (flat[~is_upper], ORANGE)):
+    start = int(np.flatnonzero(is_upper & ~np.roll(is_upper, 1))[0])
+    flat, is_upper = np.roll(flat, -start, axis=0), np.roll(is_upper, -start)
+    for half, color in ((flat[is_upper], BLUE), (flat[~is_upper], ACCENT)):
         ax.plot(*half.T, color=color, linewidth=1.6)
         ax.scatter(*half.T, s=26, color=color, zorder=3)
         for place in (0, len(half) - 1):
-            ax.annotate(str(place + 1), half[place], textcoords="offset points", xytext=(8, 6), color=color)
+            outwards = (-16 if color == ACCENT else 6, 6 if half[place][1] > 0.0 else -14)
+            ax.annotate(str(place + 1), half[place], textcoords="offset points", xytext=outwards, color=color)
     ax.axvline(0.0, color=GREY, linewidth=1.0, linestyle="--")
     frame(ax, flat)
     return figure
@@ -200,7 +183,7 @@ def methods_2_and_3(scan: Scan) -> Figure:
     for k, method in enumerate(("2", "3")):
         uv = run(scan, method).uv
         triangles = triangulate(uv, scan.loop)
-        draw_parameters(axes[2 * k], uv, triangles)
+        draw_parameters(axes[2 * k], uv, triangles, scan.loop)
         draw_mesh(axes[2 * k + 1], scan.points, triangles, scan.label)
         axes[2 * k].set_title(f"parameterization, method {method}", color=INK)
         axes[2 * k + 1].set_title("3D triangulation", color=INK)
@@ -208,14 +191,16 @@ def methods_2_and_3(scan: Scan) -> Figure:
 
 
 def figure_7(scans: dict[str, Scan]) -> Figure:
-    """Draw the bunny by method 2, and the triangles of its ears."""
-    scan = scans["Bunny"]
-    figure, axes = panels(1, 3, 4.0)
+    """Draw a rabbit by method 2, and the triangles of its ears."""
+    spacing = 0.016
+    points, loop = rabbit(spacing)
+    scan = from_truth("Rabbit", "rabbit", points, loop, np.empty((0, 3), np.int64), 2.6 * spacing)
+    figure, axes = panels(1, 3, 4.0, height=1.15)
     uv = run(scan, "2").uv
     triangles = triangulate(uv, scan.loop)
-    draw_parameters(axes[0], uv, triangles, line_width=0.08)
-    draw_mesh(axes[1], scan.points, triangles, scan.label, line_width=0.08)
-    draw_mesh(axes[2], scan.points, triangles, scan.label)
+    draw_parameters(axes[0], uv, triangles, scan.loop, line_width=0.15)
+    draw_mesh(axes[1], scan.points, triangles, scan.label, line_width=0.12)
+    draw_mesh(axes[2], scan.points, triangles, scan.label, line_width=0.3)
     low, high = np.array(axes[1].viewLim.min), np.array(axes[1].viewLim.max)
     across, along = (low[k] + (high - low)[k] * np.array(EARS[k]) for k in range(2))
     axes[2].set(xlim=across, ylim=along)
@@ -254,11 +239,11 @@ FIGURES: dict[int, Callable[[dict[str, Scan]], Figure]] = {
 
 
 def save(figure: Figure, path: Path) -> None:
-    """Write a picture in 128 colours, a third of its size."""
-    figure.savefig(path, dpi=DPI, facecolor="white")
+    """Write a picture in few colours, a third of its size, drawn finer, so that nothing behind shows at edges."""
+    figure.savefig(path, dpi=FINER * DPI, facecolor="white")
     plt.close(figure)
     with Image.open(path) as picture:
-        few = picture.convert("RGB").quantize(128)
+        few = picture.convert("RGB").reduce(FINER).quantize(COLORS)
     few.save(path, optimize=True)
 
 
@@ -270,15 +255,12 @@ def main() -> None:
     options = parser.parse_args()
     options.out.mkdir(parents=True, exist_ok=True)
     scans = load_scans(options.data)
-    drawn = (
-        options.only if options.data.exists() else [number for number in options.only if number <= LAST_WITHOUT_SCANS]
-    )
+    drawn = [number for number in options.only if options.data.exists() or number in WITHOUT_SCANS]
     if len(drawn) < len(options.only):
-        print(f"no scans in {options.data}: figures after {LAST_WITHOUT_SCANS} are left as they are")
+        print(f"no scans in {options.data}: figures but {WITHOUT_SCANS} are left as they are")
     for number in drawn:
-        figure = FIGURES[number](scans)
         path = options.out / f"figure{number}.png"
-        save(figure, path)
+        save(FIGURES[number](scans), path)
         print(path)
 
 

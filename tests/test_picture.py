@@ -87,13 +87,24 @@ def test_a_run_is_drawn_as_three_panels_of_one_size(tmp_path):
     assert image.imread(tmp_path / "run.png").shape[:2] == (594, 1650)
 
 
+@pytest.mark.parametrize(("suffix", "begins"), [(".svg", "<?xml"), (".pdf", "%PDF")])
+def test_pictures_are_drawn_as_lines_too_with_the_same_bytes_twice(tmp_path, suffix, begins):
+    paths = [tmp_path / f"{name}{suffix}" for name in "ab"]
+    for path in paths:
+        draw_boundary(path, SHEET.points, MARKED, [SHEET.boundary])
+    held, again = (path.read_bytes() for path in paths)
+    assert held.startswith(begins.encode())
+    assert held == again
+    assert suffix == ".pdf" or f"the boundary: {len(SHEET.boundary)} points</text>".encode() in held
+
+
 def test_no_figure_stays_open(tmp_path):
     drawn(tmp_path / "loops.png")
     assert plt.get_fignums() == []
 
 
 def test_a_picture_into_a_missing_folder_is_one_sentence(tmp_path):
-    with pytest.raises(FormatError, match=r"cannot be written \(No such file or directory\)"):
+    with pytest.raises(FormatError, match=r"the folder .*none does not exist; create it first"):
         draw_boundary(tmp_path / "none" / "loops.png", SHEET.points, MARKED, [SHEET.boundary])
     plt.close("all")
 

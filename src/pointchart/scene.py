@@ -1,32 +1,25 @@
-"""What is seen of a fitted surface: the parameters under each pixel, and how light falls there."""
+"""What is seen of a mesh or a fitted surface: the place under each pixel, and what it reflects."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Self
+from typing import Self, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from .fit import Surface
 from .fit.tessellate import tessellate
-from .picture import PAPER
+from .picture import rotation
 from .quality import area_vectors
-from .typing import UV, Floats, Points, Triangles
+from .typing import UV, Floats, Indices, Mask, Points, Triangles
+
+Box: TypeAlias = tuple[float, float, float, float]
 
 GRID = 15_000  # points of the mesh that finds what is seen; each pixel then samples the surface itself
 PIXELS = 1_600_000  # of the box around the surface, about twice as many each way as are printed
-CHUNK = 4096  # triangles drawn at a time
+CHUNK = 500_000  # pixels of the boxes around triangles that are drawn at a time
 MARGIN = 3.0  # pixels around the surface
-TURN, TILT = np.deg2rad([-10.0, 25.0])
-OBLIQUE = np.array(  # out of the view along the mean normal
-    [
-        [np.cos(TURN), 0.0, np.sin(TURN)],
-        [np.sin(TILT) * np.sin(TURN), np.cos(TILT), -np.sin(TILT) * np.cos(TURN)],
-        [-np.cos(TILT) * np.sin(TURN), np.sin(TILT), np.cos(TILT) * np.cos(TURN)],
-    ]
-)
-BRIGHTEST = 0.85  # cosine of the angle to the light within which places have their full colour
-LIGHT = np.array([-0.45, 0.55, 0.70]) / np.linalg.norm([-0.45, 0.55, 0.70])
+OBLIQUE = rotation(-10.0, 25.0)  # out of the view along the mean normal
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -39,6 +32,8 @@ class Scene:
         Parameters under each pixel, nan beside the surface.
     upright : (3, 3) float64
         Its rows are the longest way of the surface, across it, and its mean normal.
+    axes : (3, 3) float64
+        Directions right, up and towards us.
     box : tuple of float
         Left, right, bottom and top of the picture, in the unit of the surface.
     area : float
@@ -47,7 +42,8 @@ class Scene:
 
     uv: Floats
     upright: Floats
-    box: tuple[float, float, float, float]
+    axes: Floats
+    box: Box
     area: float
 
     @property
@@ -55,26 +51,48 @@ class Scene:
         """Parameters of the pixels on the surface, (k, 2)."""
         return np.asarray(self.uv[np.isfinite(self.uv[:, :, 0])])
 
-    @property
-    def axes(self) -> Floats:
-        """Directions right, up and towards us, (3, 3): `upright` turned a little."""
-        return np.asarray(OBLIQUE @ self.upright)
-
     def thinned(self, step: int) -> Self:
         """Return the same picture with fewer pixels."""
         return replace(self, uv=self.uv[::step, ::step])
 
     def painted(self, colors: Floats) -> Floats:
-        """Return the picture of the surface on paper, (h, w, 3), by colours of the pixels on it, (k, 3)."""
-        from matplotlib.colors import to_rgb
+        """Return the picture of the surface by colours of the pixels on it, as `spread` does."""
+        return spread(np.isfinite(self.uv[:, :, 0]), colors)
 
-        image = np.full((*self.uv.shape[:2], 3), to_rgb(PAPER))
-        image[np.isfinite(self.uv[:, :, 0])] = np.clip(colors, 0.0, 1.0)
-        return image
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Raster:
+    """What is seen of a mesh at the middle of each pixel.
+
+    Attributes
+    ----------
+    which : (h, w) int64
+        Row of the triangle, -1 beside the mesh.
+    corners : (k, 3) int64
+        The points of the triangle under each pixel on the mesh, row by row.
+    weights : (k, 3) float64
+        Their shares of that place.
+    box : tuple of float
+        Left, right, bottom and top of the picture, in the unit of the mesh.
+    """
+
+    which: Indices
+    corners: Triangles
+    weights: Floats
+    box: Box
+
+    @property
+    def is_seen(self) -> Mask:
+        """Which pixels are on the mesh, (h, w)."""
+        return self.which >= 0
+
+    def interpolated(self, values: Floats) -> Floats:
+        """Interpolate values of the points, (n,) or (n, c), at the pixels on the mesh."""
+        return np.asarray(np.einsum("ij,ij...->i...", self.weights, values[self.corners]))
 
 
 def look_at(surface: Surface, loops: Sequence[ArrayLike]) -> Scene:
-    """Find what is seen of a surface at each pixel.
+    """Find what is seen of a surface at each pixel, a little from above on its mean plane.
 
     Parameters
     ----------
@@ -86,17 +104,27 @@ def look_at(surface: Surface, loops: Sequence[ArrayLike]) -> Scene:
     -------
     Scene
     """
-    points, triangles, uv = tessellate(surface, loops, GRID)
-    upright = _upright(points, triangles)
-    turned = points @ (OBLIQUE @ upright).T
-    low, high = turned[:, :2].min(axis=0), turned[:, :2].max(axis=0)
-    pixel = float(np.sqrt((high - low).prod() / PIXELS))
-    width, height = np.ceil((high - low) / pixel + 2.0 * MARGIN).astype(int).tolist()
-    low = low - MARGIN * pixel
-    back_to_front = np.argsort(turned[triangles, 2].mean(axis=1))
-    seen = _rasterize((turned[:, :2] - low) / pixel, triangles[back_to_front], uv, (height, width))
-    box = (low[0], low[0] + width * pixel, low[1], low[1] + height * pixel)
-    return Scene(seen, upright, box, float(np.linalg.norm(area_vectors(points, triangles), axis=1).sum()))
+    mesh = tessellate(surface, loops, GRID)
+    upright = _upright(*mesh[:2])
+    return look_at_mesh(mesh, upright, OBLIQUE @ upright, PIXELS)
+
+
+def look_at_mesh(mesh: tuple[Points, Triangles, UV], upright: Floats, axes: Floats, pixels: int) -> Scene:
+    """Find what is seen of the mesh of a surface, as `tessellate` makes it, along given axes on so many pixels."""
+    points, triangles, uv = mesh
+    raster = rasterize(points @ axes.T, triangles, pixels)
+    image = np.full((*raster.which.shape, 2), np.nan)
+    image[raster.is_seen] = raster.interpolated(uv)
+    area = float(np.linalg.norm(area_vectors(points, triangles), axis=1).sum())
+    return Scene(image, upright, axes, raster.box, area)
+
+
+def spread(is_seen: Mask, colors: Floats) -> Floats:
+    """Return a picture, (h, w, 4), by colours of the pixels that are seen, (k, 3); it is transparent elsewhere."""
+    image = np.zeros((*is_seen.shape, 4))
+    image[is_seen, :3] = np.clip(colors, 0.0, 1.0)
+    image[is_seen, 3] = 1.0
+    return image
 
 
 def _upright(points: Points, triangles: Triangles) -> Floats:
@@ -111,29 +139,54 @@ def _upright(points: Points, triangles: Triangles) -> Floats:
     return np.stack([longest, np.cross(normal, longest), normal])
 
 
-def _rasterize(place: Floats, triangles: Triangles, uv: UV, shape: tuple[int, int]) -> Floats:
-    """Interpolate parameters at the middle of each pixel, later triangles over earlier ones; nan beside them."""
-    image = np.full((*shape, 2), np.nan)
-    for part in np.array_split(triangles, len(triangles) // CHUNK + 1):
-        low, high = np.rint(place[part].min(axis=1)).astype(int), np.rint(place[part].max(axis=1)).astype(int)
-        width, height = (high - low).T
-        which = np.repeat(np.arange(len(part)), width * height)
-        step = np.arange(len(which)) - np.repeat(np.cumsum(width * height) - width * height, width * height)
-        column, row = low[which, 0] + step % width[which], low[which, 1] + step // width[which]
-        # The shares of the corners are the doubled areas opposite to them, seen from the middle of the pixel.
-        x, y = (place[part[which]] - np.stack([column + 0.5, row + 0.5], axis=1)[:, None]).transpose(2, 0, 1)
-        share = np.roll(x, -1, axis=1) * np.roll(y, 1, axis=1) - np.roll(x, 1, axis=1) * np.roll(y, -1, axis=1)
-        total = share.sum(axis=1)
-        inside = (share * np.sign(total)[:, None] >= 0.0).all(axis=1) & (total != 0.0)
-        weights = share[inside] / total[inside, None]
-        image[row[inside], column[inside]] = np.einsum("ij,ijk->ik", weights, uv[part[which[inside]]])
-    return image
+def rasterize(turned: Points, triangles: Triangles, pixels: int) -> Raster:
+    """Find the triangle under the middle of each pixel, near triangles over far ones.
+
+    Parameters
+    ----------
+    turned : (n, 3) array
+        Points, to the right, up and towards us.
+    triangles : (m, 3) int array
+    pixels : int
+        Of the box around the mesh, about.
+
+    Returns
+    -------
+    Raster
+    """
+    low, high = turned[:, :2].min(axis=0), turned[:, :2].max(axis=0)
+    sides = np.maximum(high - low, 1e-3 * (high - low).max())
+    pixel = float(np.sqrt(sides.prod() / pixels))
+    width, height = np.ceil((high - low) / pixel + 2.0 * MARGIN).astype(int).tolist()
+    low = low - MARGIN * pixel
+    place = (turned[:, :2] - low) / pixel
+    which, weights = np.full((height, width), -1), np.empty((height, width, 3))
+    back_to_front = np.argsort(turned[triangles, 2].mean(axis=1))
+    first, last = (np.rint(end(place[triangles[back_to_front]], axis=1)).astype(int) for end in (np.min, np.max))
+    work = np.cumsum((last - first).prod(axis=1))
+    for part in np.split(np.arange(len(triangles)), np.searchsorted(work, np.arange(CHUNK, work[-1], CHUNK))):
+        _fill(which, weights, place, triangles, back_to_front[part], (first[part], last[part]))
+    is_seen = which >= 0
+    box = (low[0], low[0] + width * pixel, low[1], low[1] + height * pixel)
+    return Raster(which, triangles[which[is_seen]], weights[is_seen], box)
 
 
-def lit(turned: Floats, *, ambient: float) -> Floats:
-    """Return the brightness of places by their normals, lit from the upper left; the back is darker."""
-    shade = ambient + (1.0 - ambient) * np.clip(turned @ LIGHT / BRIGHTEST, 0.0, 1.0)
-    return np.asarray(np.where(turned[:, 2] < 0.0, 0.6, 1.0) * np.nan_to_num(shade, nan=ambient))
+def _fill(
+    which: Indices, weights: Floats, place: UV, triangles: Triangles, drawn: Indices, boxes: tuple[Indices, Indices]
+) -> None:
+    """Write triangles and the shares of their corners into the pixels under them, later ones over earlier ones."""
+    first, last = boxes
+    width, height = (last - first).T
+    k = np.repeat(np.arange(len(drawn)), width * height)
+    step = np.arange(len(k)) - np.repeat(np.cumsum(width * height) - width * height, width * height)
+    column, row = first[k, 0] + step % width[k], first[k, 1] + step // width[k]
+    # The shares of the corners are the doubled areas opposite to them, seen from the middle of the pixel.
+    x, y = (place[triangles[drawn[k]]] - np.stack([column + 0.5, row + 0.5], axis=1)[:, None]).transpose(2, 0, 1)
+    share = np.roll(x, -1, axis=1) * np.roll(y, 1, axis=1) - np.roll(x, 1, axis=1) * np.roll(y, -1, axis=1)
+    total = share.sum(axis=1)
+    inside = (share * np.sign(total)[:, None] >= 0.0).all(axis=1) & (total != 0.0)
+    which[row[inside], column[inside]] = drawn[k[inside]]
+    weights[row[inside], column[inside]] = share[inside] / total[inside, None]
 
 
 def reflection_angles(facing: Floats, eye: ArrayLike, lines: ArrayLike) -> Floats:

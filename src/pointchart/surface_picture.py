@@ -11,9 +11,21 @@ from scipy.spatial import cKDTree
 from .errors import InputError
 from .fit import Surface, curvatures, evaluate, normals
 from .fit.deviation import Deviation, deviation_table
-from .io import replacing
-from .picture import ACCENT, FAINT, INK, PAPER, STONE
-from .scene import Scene, least_turning, lit, look_at, reflection_angles
+from .io import check_output
+from .picture import (
+    ACCENT,
+    FAINT,
+    INK,
+    PAPER,
+    PICTURE_SUFFIXES,
+    STONE,
+    lit,
+    number,
+    paint_image,
+    save,
+    style_bar,
+)
+from .scene import Scene, least_turning, look_at, reflection_angles
 from .typing import Floats, Points
 
 BELOW_AND_ABOVE = ["#12344f", "#2a6f97", "#8fbcd4", "#f4efe4", "#eba98f", ACCENT, "#7a2416"]
@@ -32,7 +44,7 @@ def draw_deviation(
     unit: str,
     outliers: float = 0.0,
 ) -> None:
-    """Draw the deviation of a surface from its scan, its histogram and its figures into a PNG.
+    """Draw the deviation of a surface from its scan, its histogram and its figures.
 
     Each place of the surface has the colour of the scan point nearest to it, and that of stone where none is near. A
     ring is around the point that deviates most.
@@ -40,6 +52,7 @@ def draw_deviation(
     Parameters
     ----------
     path : Path
+        A file of one of `PICTURE_SUFFIXES`.
     surface : Surface
     loops : sequence of (b, 2) arrays
         Its boundary in the parameter plane, as for `tessellate`.
@@ -58,16 +71,15 @@ def draw_deviation(
     InputError
         If the tolerance is not more than 0, or there is not one deviation for each point.
     """
+    check_output(path, suffixes=PICTURE_SUFFIXES)
     if not 0.0 < tolerance < np.inf:
         raise InputError(f"the tolerance is {tolerance}; give a length more than 0, in {unit}")
     if len(points) != len(deviation.signed):
         raise InputError(f"{len(points)} points have {len(deviation.signed)} deviations; measure them on these points")
     scene = look_at(surface, loops)
-    facing = normals(surface, scene.seen)
-    scale = _diverging(max(1.25 * tolerance, min(deviation.percentile(99.9), 4.0 * tolerance)))
+    scale = diverging(max(1.25 * tolerance, min(deviation.percentile(99.9), 4.0 * tolerance)))
     figure, panels = _panels([["view", "bars"], ["view", "figures"]], width_ratios=[1.9, 1.0])
-    colors = _nearest_colors(evaluate(surface, scene.seen), points, scale.to_rgba(deviation.signed)[:, :3], scene.area)
-    _show(panels["view"], scene, lit(facing @ scene.axes.T, ambient=0.62)[:, None] * colors)
+    paint_deviation(panels["view"], surface, scene, points, scale.to_rgba(deviation.signed)[:, :3])
     if deviation.largest() > 0.0:
         _ring(panels["view"], scene.axes @ points[np.argmax(np.abs(deviation.signed))])
     panels["view"].set_title(f"deviation of {len(points):,} points from the surface", color=INK, fontsize=13)
@@ -75,11 +87,11 @@ def draw_deviation(
     bar.set_ticks([-tolerance, 0.0, tolerance], labels=_marks(tolerance))
     _histogram(panels["bars"], deviation, tolerance, scale, unit)
     _write_figures(panels["figures"], _figures(surface, deviation, tolerance, outliers, unit))
-    _save(figure, path)
+    save(figure, path)
 
 
 def draw_reflections(path: Path, surface: Surface, loops: Sequence[ArrayLike], *, unit: str) -> None:
-    """Draw how a surface reflects parallel lines of light, and its Gaussian and mean curvature, into a PNG.
+    """Draw how a surface reflects parallel lines of light, and its Gaussian and mean curvature.
 
     Lines of light are smooth where the surface has continuous curvature, have corners where only its normal is
     continuous, and break where that is not.
@@ -87,19 +99,17 @@ def draw_reflections(path: Path, surface: Surface, loops: Sequence[ArrayLike], *
     Parameters
     ----------
     path : Path
+        A file of one of `PICTURE_SUFFIXES`.
     surface : Surface
     loops : sequence of (b, 2) arrays
         Its boundary in the parameter plane, as for `tessellate`.
     unit : str
         Of the surface, such as "mm".
     """
+    check_output(path, suffixes=PICTURE_SUFFIXES)
     scene = look_at(surface, loops)
     figure, panels = _panels([["lines", "gauss"], ["lines", "mean"]], width_ratios=[1.5, 1.0])
-    facing = normals(surface, scene.seen)
-    angles = reflection_angles(facing, scene.upright[2], least_turning(facing, scene.upright[2]))
-    period = _period(angles)
-    gray = 0.5 + np.clip(1.6 * np.cos(2.0 * np.pi * angles / np.deg2rad(period)), -0.5, 0.5)
-    _show(panels["lines"], scene, lit(facing @ scene.axes.T, ambient=0.8)[:, None] * _between(gray))
+    period = paint_lines(panels["lines"], surface, scene)
     panels["lines"].set_title(f"reflection lines, {period:g}° apart", color=INK, fontsize=13)
     small = scene.thinned(2)
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):  # in singular places, which are left stone
@@ -107,7 +117,25 @@ def draw_reflections(path: Path, surface: Surface, loops: Sequence[ArrayLike], *
     shade = lit(normals(surface, small.seen) @ small.axes.T, ambient=0.8)
     _map(panels["gauss"], small, shade, gauss, FLAT / scene.area, f"Gaussian curvature in 1 / {unit}²")
     _map(panels["mean"], small, shade, mean, FLAT / np.sqrt(scene.area), f"mean curvature in 1 / {unit}")
-    _save(figure, path)
+    save(figure, path)
+
+
+def paint_deviation(axes: Any, surface: Surface, scene: Scene, points: Points, colors: Floats) -> None:
+    """Show a surface in the colours of the scan points nearest to each place, (n, 3), lit a little."""
+    nearest = _nearest_colors(evaluate(surface, scene.seen), points, colors, scene.area)
+    shade = lit(normals(surface, scene.seen) @ scene.axes.T, ambient=0.62)
+    paint_image(axes, scene.painted(shade[:, None] * nearest), scene.box)
+
+
+def paint_lines(axes: Any, surface: Surface, scene: Scene) -> float:
+    """Show the lines of light that a surface reflects; return how far they are apart, in degrees."""
+    facing = normals(surface, scene.seen)
+    angles = reflection_angles(facing, scene.upright[2], least_turning(facing, scene.upright[2]))
+    period = _period(angles)
+    gray = 0.5 + np.clip(1.6 * np.cos(2.0 * np.pi * angles / np.deg2rad(period)), -0.5, 0.5)
+    shade = lit(facing @ scene.axes.T, ambient=0.8)
+    paint_image(axes, scene.painted(shade[:, None] * _between(gray)), scene.box)
+    return period
 
 
 def _nearest_colors(places: Points, points: Points, colors: Floats, area: float) -> Floats:
@@ -133,7 +161,7 @@ def _between(gray: Floats) -> Floats:
     return np.asarray((1.0 - share) * np.array(to_rgb(INK)) + share * np.array(to_rgb(PAPER)))
 
 
-def _diverging(reach: float) -> Any:
+def diverging(reach: float) -> Any:
     """Return a map from numbers to colours, symmetric about 0."""
     from matplotlib.cm import ScalarMappable
     from matplotlib.colors import LinearSegmentedColormap, Normalize
@@ -153,16 +181,10 @@ def _panels(layout: Any, *, width_ratios: list[float]) -> tuple[Any, dict[str, A
 def _map(axes: Any, scene: Scene, shade: Floats, values: Floats, least: float, title: str) -> None:
     """Draw numbers as colours, which reach over all but the largest two per cent, and to `least` at least."""
     sizes = np.abs(values[np.isfinite(values)])
-    scale = _diverging(max(least, float(np.percentile(sizes, 98.0)) if len(sizes) else 0.0))
-    _show(axes, scene, shade[:, None] * scale.to_rgba(values)[:, :3])
+    scale = diverging(max(least, float(np.percentile(sizes, 98.0)) if len(sizes) else 0.0))
+    paint_image(axes, scene.painted(shade[:, None] * scale.to_rgba(values)[:, :3]), scene.box)
     axes.set_title(title, color=INK, fontsize=13)
     _color_bar(axes, scale)
-
-
-def _show(axes: Any, scene: Scene, colors: Floats) -> None:
-    image = scene.painted(colors)
-    axes.imshow(image, extent=scene.box, origin="lower", interpolation="hanning", interpolation_stage="rgba")
-    axes.set_axis_off()
 
 
 def _ring(axes: Any, place: Floats) -> None:
@@ -177,10 +199,8 @@ def _color_bar(axes: Any, scale: Any, label: str = "") -> Any:
     from matplotlib.ticker import FuncFormatter, MaxNLocator
 
     bar = axes.figure.colorbar(scale, ax=axes, location="bottom", shrink=0.7, aspect=45, pad=0.02, extend="both")
-    bar.locator, bar.formatter = MaxNLocator(4, prune="both"), FuncFormatter(lambda x, _: _number(x))
-    bar.set_label(label, color=INK, fontsize=11)
-    bar.ax.tick_params(colors=INK, labelsize=11)
-    bar.outline.set_visible(False)
+    bar.locator, bar.formatter = MaxNLocator(4, prune="both"), FuncFormatter(lambda x, _: number(x))
+    style_bar(bar, label, size=11)
     return bar
 
 
@@ -207,9 +227,9 @@ def _figures(
     """Return the rows of the table: the figures of the deviation, and how few numbers hold the scan."""
     *lengths, (_, share) = deviation_table(deviation, outliers, tolerance=tolerance)
     rows = [
-        (name, f"{_number(figure)} {unit}") for name, figure in lengths if outliers or not name.startswith("max but")
+        (name, f"{number(figure)} {unit}") for name, figure in lengths if outliers or not name.startswith("max but")
     ]
-    rows.append((f"within {_number(tolerance)} {unit}", f"{100.0 * share:.2f} %"))
+    rows.append((f"within {number(tolerance)} {unit}", f"{100.0 * share:.2f} %"))
     n_control = getattr(surface, "n_control", None)  # not every surface has control points
     if n_control:
         rows.append(("control points", f"{n_control:,}"))
@@ -227,13 +247,4 @@ def _write_figures(axes: Any, rows: list[tuple[str, str]]) -> None:
 
 
 def _marks(tolerance: float) -> list[str]:
-    return [_number(-tolerance), "0", f"+{_number(tolerance)}"]
-
-
-def _number(x: float) -> str:
-    return f"{x:{'.3g' if abs(x) < 1000.0 or abs(x) >= 1e6 else ',.0f'}}".replace("-", "\N{MINUS SIGN}")
-
-
-def _save(figure: Any, path: Path) -> None:
-    with replacing(path) as temporary:
-        figure.savefig(temporary, dpi=110, format="png")
+    return [number(-tolerance), "0", f"+{number(tolerance)}"]

@@ -24,7 +24,8 @@ def boundary(
         Path, typer.Option("--out", "-o", metavar="LOOP.txt", help="Loop to write: one 0-based point index a line.")
     ],
     picture: Annotated[
-        Path | None, typer.Option("--picture", metavar="PNG", help="Draw the cloud, its scores and the loops.")
+        Path | None,
+        typer.Option("--picture", metavar="FILE", help="Draw the cloud, its scores and the loops: png, svg, pdf."),
     ] = None,
     ply: Annotated[
         Path | None,
@@ -39,7 +40,7 @@ def boundary(
     from .._parallel import on_threads
     from ..errors import points_called
     from ..io import check_output, write_curves, write_loop
-    from ..picture import draw_boundary
+    from ..picture import PICTURE_SUFFIXES, draw_boundary
     from ..survey import survey_scan
     from .choices import outer_place
     from .inputs import read_inputs
@@ -47,9 +48,9 @@ def boundary(
     context.with_resource(on_threads(threads))
     place = outer_place(outer)
     taken = [scan, out]
-    for path, suffix in ((picture, ".png"), (ply, ".ply")):
+    for path, suffixes in ((picture, PICTURE_SUFFIXES), (ply, (".ply",))):
         if path is not None:
-            check_output(path, suffixes=(suffix,), inputs=taken)
+            check_output(path, suffixes=suffixes, inputs=taken)
             taken.append(path)
     inputs = read_inputs(scan, None, None, out=out, suffixes=(".txt",), component=component)
     with staged(quiet) as clock, points_called(inputs.rows):

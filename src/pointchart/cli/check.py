@@ -12,7 +12,6 @@ from . import options as given
 
 if TYPE_CHECKING:
     from ..io import Scan
-    from ..typing import UV
 
 
 def check(
@@ -34,6 +33,7 @@ def check(
     from ..errors import InputError
     from ..io import check_output, read_scan
     from ..report import certificate_lines, certificate_report, summary, write_json
+    from .inputs import uv_of
 
     if report is not None:
         check_output(report, suffixes=(".json",), inputs=[mesh] if points is None else [mesh, points])
@@ -43,7 +43,7 @@ def check(
     n_left = 0
     if points is not None:
         n_left = _compare(read, read_scan(points), mesh, points)
-    uv = _uv(read)
+    uv = uv_of(read)
     proof = certify(read.points, read.triangles, uv=uv, holes=holes)
     if report is not None:
         write_json(report, {"certificate": certificate_report(proof)})
@@ -57,14 +57,6 @@ def check(
     if not quiet:
         left = f"; {n_left} points of {points} are not in it" if n_left else ""
         print(f"{mesh}: {summary(proof)}{left}", file=sys.stderr)
-
-
-def _uv(read: Scan) -> UV | None:
-    import numpy as np
-
-    if "u" not in read.attributes or "v" not in read.attributes:
-        return None
-    return np.column_stack([read.attributes["u"], read.attributes["v"]]).astype(np.float64)
 
 
 def _compare(read: Scan, scan: Scan, mesh: Path, path: Path) -> int:

@@ -88,14 +88,17 @@ def fit(
         ),
     ] = None,
     picture: Annotated[
-        Path | None, typer.Option("--picture", metavar="PNG", help="Draw the deviation map and its histogram.")
+        Path | None,
+        typer.Option("--picture", metavar="FILE", help="Draw the deviation map and its histogram: png, svg, pdf."),
     ] = None,
     reflections: Annotated[
-        Path | None, typer.Option("--reflections", metavar="PNG", help="Draw reflection lines and curvature.")
+        Path | None,
+        typer.Option("--reflections", metavar="FILE", help="Draw reflection lines and curvature: png, svg, pdf."),
     ] = None,
     explain: Annotated[bool, typer.Option("--explain", help="Say which choices were made and why.")] = False,
     threads: given.ThreadsOption = None,
     report: given.ReportOption = None,
+    html: given.HtmlOption = None,
     quiet: given.QuietOption = False,
 ) -> None:
     """Fit a trimmed B-spline surface to a scan of one surface patch, to a tolerance, for CAD."""
@@ -103,6 +106,8 @@ def fit(
     from ..errors import points_called
     from ..fit import huber, squares
     from ..io import MESH_SUFFIXES, check_output, replacing
+    from ..page import PAGE_SUFFIXES, lay_out, writing_page
+    from ..picture import PICTURE_SUFFIXES
     from ..report import boundary_lines, intersection_lines, run_report, writing_json
     from ..surface_io import CAD_SUFFIXES
     from ..surface_io.occ import check_extra
@@ -111,13 +116,19 @@ def fit(
     from ..surfacing import fit_scan
     from .choices import GAPS, amount, corner_names, fairness_weight, layout_rule, outer_place
     from .inputs import read_inputs
-    from .output import given_options
+    from .output import command_line, given_options
 
     context.with_resource(on_threads(threads))
     allowed_of, place = amount("--tolerance", tolerance, positive=True), outer_place(outer, boundary)
     share, fair = amount("--outliers", outliers, below=1.0)(1.0), fairness_weight(fairness)
     named = corner_names(domain, corners)
-    beside = [(deviations, HOLD_DEVIATIONS), (picture, (".png",)), (reflections, (".png",)), (report, (".json",))]
+    beside = [
+        (deviations, HOLD_DEVIATIONS),
+        (picture, PICTURE_SUFFIXES),
+        (reflections, PICTURE_SUFFIXES),
+        (report, (".json",)),
+        (html, PAGE_SUFFIXES),
+    ]
     taken = [scan, out, *([boundary] if boundary else [])]
     for path, suffixes in beside:
         if path is not None:
@@ -156,8 +167,12 @@ def fit(
         inputs.scan.points, inputs.rows, surfaced.reconstruction, clock, given_options(context), boundary_given=is_given
     )
     run["surface"] = surface_report(surfaced, points, allowed, share, unit)
+    page = None
+    if html is not None:
+        made, off = surfaced.reconstruction, surfaced.deviation.signed
+        page = lay_out(points, made, run, title=scan.name, command=command_line(), deviation=off)
     shown = surfaced.fit.surface, surfaced.loops
-    with ExitStack() as stack, writing_json(report, run):
+    with ExitStack() as stack, writing_json(report, run), writing_page(html, page):
         # Each file is in its place only when all of them are written.
         if deviations is not None:
             _write_deviations(stack.enter_context(replacing(deviations)), surfaced, inputs)
@@ -169,7 +184,8 @@ def fit(
         _write_surface(out, surfaced, unit)
     if not quiet:
         lines = boundary_lines(surfaced.reconstruction, points, found=not is_given) + intersection_lines(run)
-        print("\n".join([*lines, *surface_lines(surfaced, allowed, share, unit), str(out)]), file=sys.stderr)
+        lines += [*surface_lines(surfaced, allowed, share, unit), str(out)]
+        print("\n".join(lines + ([f"{html}: {page.size_line}"] if page else [])), file=sys.stderr)
 
 
 def _diagonal(points: Points) -> float:
