@@ -2,7 +2,7 @@ PYTHON ?= python3
 BIN := .venv/bin
 PEERS ?= $(BIN)/python
 
-.PHONY: help demo test check format docs bench tables clean
+.PHONY: help demo test check format docs figures bench tables clean
 
 help:  ## print this menu
 	@awk -F ':.*## ' '/^[a-z]+:.*## /{printf "make %-8s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -43,9 +43,19 @@ tables: .venv/dev  ## reproduce the paper's tables, measure boundaries, hard sca
 	$(BIN)/python benchmarks/creases.py
 	$(BIN)/python benchmarks/surfaces.py
 
-docs: .venv/dev  ## draw the pictures of the docs
+.venv/docs: .venv/run
+	$(BIN)/pip install --quiet --disable-pip-version-check --editable '.[docs]'
+	touch $@
+
+docs: .venv/docs  ## build the site into build/docs, its examples run; warnings are errors
+	$(BIN)/sphinx-build --quiet --fail-on-warning --keep-going -d build/doctrees docs build/docs
+	@echo build/docs/index.html
+
+figures: .venv/dev  ## draw the pictures of the docs
 	$(BIN)/python benchmarks/figures.py docs/figures
+	$(BIN)/python benchmarks/gallery.py docs/figures
 	$(BIN)/python benchmarks/boundaries.py --picture docs/figures/boundary.png
+	$(BIN)/python docs/pictures.py docs/figures
 
 clean:  ## remove everything that make has built
-	rm -rf .venv demo build
+	rm -rf .venv demo build docs/examples

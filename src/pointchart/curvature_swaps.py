@@ -118,7 +118,7 @@ def swap_to_least_gaussian_curvature(points: ArrayLike, triangles: Triangles) ->
 
 
 def swap_to_least_curvature(points: ArrayLike, triangles: Triangles) -> Swapped:
-    r"""Swap edges while that lowers the total of the absolute principal curvatures, |k1| + |k2|.
+    r"""Swap edges while that lowers the total of the absolute principal curvatures, ``|k1| + |k2|``.
 
     With the angle defect :math:`\bar K` of a point (0 on the boundary), a third of the area of its triangles S and
     :math:`\bar H = \frac14 \sum \|e\| \, \beta_e` over its edges, the sum of
