@@ -240,7 +240,7 @@ def test_quiet_commands_say_nothing_of_gaps_and_of_points_left_out(run, ring, pa
 def test_holes_bridge_makes_a_disc_of_a_ring(run, ring, tmp_path):
     code, _, err = run("mesh", "ring.ply", "-o", "m.ply", "--holes", "bridge", "--report", "run.json")
     assert code == 0
-    assert "1 gaps of the scan, bridged, the largest " in err
+    assert "1 gap of the scan, bridged, the largest " in err
     assert "m.ply: a certified disc: 600 points" in err
     mesh = read_scan(tmp_path / "m.ply")
     assert certify(mesh.points, mesh.triangles, uv=uv_of(mesh), loop=rim_of(ring, 1)).is_one_to_one
@@ -254,7 +254,7 @@ def test_holes_bridge_makes_a_disc_of_a_ring(run, ring, tmp_path):
 def test_holes_open_leaves_the_hole_of_a_ring_and_check_passes_it_with_one_hole(run, ring, tmp_path):
     code, _, err = run("mesh", "ring.ply", "-o", "m.ply", "--holes", "open", "--report", "run.json")
     assert code == 0
-    assert "1 gaps of the scan, 1 left open, the largest " in err
+    assert "1 gap of the scan, 1 left open, the largest " in err
     assert "[ok] 2 boundary loops, 1 of them round holes" in err
     assert "m.ply: a certified disc with a hole: 600 points" in err
     proof = json.loads(Path("run.json").read_text())["certificate"]

@@ -229,7 +229,7 @@ def test_small_gaps_are_cut_out_if_nothing_is_said(run, tmp_path):
     np.save(tmp_path / "scan.npy", shape.points)
     code, err = run("scan.npy", "-o", "s.json", "--tolerance", "1%")
     assert code == 0
-    assert "1 gaps of the scan, 1 left open" in err
+    assert "1 gap of the scan, 1 left open" in err
     assert "trimmed by its boundary and a gap" in err
     assert len(read_surface_json(tmp_path / "s.json")[1]) == 2
 

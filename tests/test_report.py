@@ -163,7 +163,7 @@ def test_every_bridge_is_a_gap_where_the_scan_ends_and_a_doubt_where_it_does_not
     points, result, _ = run
     (gap,) = result.evidence.bridges
     (line,) = boundary_lines(result, points, found=False)[1:]
-    assert line == f"1 gaps of the scan, bridged, the largest {gap.rim_in_spacings:.0f} spacings round"
+    assert line == f"1 gap of the scan, bridged, the largest {gap.rim_in_spacings:.0f} spacings round"
     doubt = replace(gap, share=0.49)
     doubtful = with_evidence(result, bridges=[doubt, gap, replace(gap, share=0.5)])
     report = run_report(points, np.arange(len(points)), doubtful, StageClock(), {}, boundary_given=True)["boundary"]
@@ -228,7 +228,7 @@ def test_a_mesh_that_passes_through_itself_is_reported_with_the_place(sheet):
         assert len(intersection_lines(run)) == count
     (line,) = intersection_lines(run)
     assert np.abs(np.array(found["places"])[0, [0, 2]]).max() < 0.5
-    assert re.fullmatch(r"look at 1 places where the mesh passes through itself, the first at \(.*, .*, .*\)", line)
+    assert re.fullmatch(r"look at 1 place where the mesh passes through itself, the first at \(.*, .*, .*\)", line)
 
 
 def test_a_report_comes_back_from_its_file(run, tmp_path):

@@ -59,7 +59,9 @@ def certificate_lines(proof: Certificate) -> list[str]:
         )
     if proof.simple_uv_boundary is not None:
         lines.append(_line(proof.simple_uv_boundary, "boundary simple in the plane", "it crosses itself", None))
-    lines.append(f"[--] longest edge {proof.longest_edge_over_spacing:.1f} local spacings, {proof.folds} folds")
+    lines.append(
+        f"[--] longest edge {proof.longest_edge_over_spacing:.1f} local spacings, {_counted(proof.folds, 'fold')}"
+    )
     return lines
 
 
@@ -76,10 +78,12 @@ def boundary_lines(result: Reconstruction, points: Points, *, found: bool) -> li
         done = f"{holes} left open" if holes else "bridged"
         if 0 < holes < len(gaps):
             done += " and the others, which touch the boundary or another gap, bridged"
-        lines.append(f"{len(gaps)} gaps of the scan, {done}, the largest {gaps[0].rim_in_spacings:.0f} spacings round")
+        lines.append(
+            f"{_counted(len(gaps), 'gap')} of the scan, {done}, the largest {gaps[0].rim_in_spacings:.0f} spacings round"
+        )
     if doubts:
         lines.append(
-            f"look at {len(doubts)} places that the mesh spans by edges of over four spacings although the scan has no "
+            f"look at {_counted(len(doubts), 'place')} that the mesh spans by edges of over four spacings although the scan has no "
             f"gap there, the largest at vertex {doubts[0].points[0]} {place_of(points, doubts[0].points[0])}"
         )
     return lines
@@ -106,7 +110,7 @@ def intersection_lines(run: dict[str, Any]) -> list[str]:
     if not found["count"]:
         return []
     first = place_of(np.array(found["places"]), 0)
-    return [f"look at {found['count']} places where the mesh passes through itself, the first at {first}"]
+    return [f"look at {_counted(found['count'], 'place')} where the mesh passes through itself, the first at {first}"]
 
 
 def run_report(
@@ -269,6 +273,10 @@ def _spread(values: Floats, weights: Floats) -> dict[str, float | None]:
         "percentile_95": _finite(values[order[place]]),
         "largest": _finite(values.max()),
     }
+
+
+def _counted(n: int, noun: str) -> str:
+    return f"{n} {noun}" if n == 1 else f"{n} {noun}s"
 
 
 def _line(passed: bool, name: str, fault: str, count: int | None) -> str:
