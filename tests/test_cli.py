@@ -282,7 +282,7 @@ def test_every_gap_is_bridged_unless_it_is_to_stay_open(run, tmp_path, n_gaps):
     shape = shapes.pierce(shapes.disc(1200), n_gaps=n_gaps, radius_in_spacings=3.5)
     np.save(tmp_path / "scan.npy", shape.points)
     assert len(shape.loops) == 1 + n_gaps
-    said = f"{n_gaps} gaps of the scan, "
+    said = f"{n_gaps} {'gap' if n_gaps == 1 else 'gaps'} of the scan, "
     for words, done, holes in (([], "bridged", 0), (["--holes", "open"], f"{n_gaps} left open", n_gaps)):
         code, _, err = run("mesh", "scan.npy", "-o", "m.ply", *words)
         assert code == 0

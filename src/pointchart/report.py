@@ -78,13 +78,13 @@ def boundary_lines(result: Reconstruction, points: Points, *, found: bool) -> li
         done = f"{holes} left open" if holes else "bridged"
         if 0 < holes < len(gaps):
             done += " and the others, which touch the boundary or another gap, bridged"
-        lines.append(
-            f"{_counted(len(gaps), 'gap')} of the scan, {done}, the largest {gaps[0].rim_in_spacings:.0f} spacings round"
-        )
+        widest = f"the largest {gaps[0].rim_in_spacings:.0f} spacings round"
+        lines.append(f"{_counted(len(gaps), 'gap')} of the scan, {done}, {widest}")
     if doubts:
         lines.append(
-            f"look at {_counted(len(doubts), 'place')} that the mesh spans by edges of over four spacings although the scan has no "
-            f"gap there, the largest at vertex {doubts[0].points[0]} {place_of(points, doubts[0].points[0])}"
+            f"look at {_counted(len(doubts), 'place')} that the mesh spans by edges of over four spacings although the "
+            f"scan has no gap there, the largest at vertex {doubts[0].points[0]} "
+            f"{place_of(points, doubts[0].points[0])}"
         )
     return lines
 
