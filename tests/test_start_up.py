@@ -92,7 +92,12 @@ def test_modules_are_reached_through_the_package_and_other_names_are_not():
 
 
 @pytest.mark.parametrize(
-    "words", [["--help"], ["--version"], *([name, "--help"] for name in ("mesh", "param", "boundary", "fit", "check"))]
+    "words",
+    [
+        ["--help"],
+        ["--version"],
+        *([name, "--help"] for name in ("mesh", "param", "boundary", "fit", "check", "figure", "view")),
+    ],
 )
 def test_help_comes_without_the_libraries_that_commands_use(words):
     done = python("-X", "importtime", "-m", "pointchart", *words)

@@ -5,7 +5,7 @@ from typing import Annotated
 
 import typer
 
-from . import boundary, check, demo, fit, mesh, param
+from . import boundary, check, demo, figure, fit, mesh, param, view
 
 app = typer.Typer(
     help="From a point cloud of one surface patch to planar parameters, a certified disc mesh and a CAD surface.",
@@ -38,7 +38,9 @@ app.command()(mesh.mesh)
 app.command()(param.param)
 app.command()(boundary.boundary)
 app.command()(fit.fit)
+app.command()(figure.figure)
 app.command()(check.check)
+app.command()(view.view)
 app.command()(demo.demo)
 
 

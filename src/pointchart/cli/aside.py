@@ -3,6 +3,8 @@
 from collections.abc import Callable
 from threading import Thread
 
+at_interrupt: list[Callable[[], object]] = []  # what else has to end where the process ends at once
+
 
 def aside(run: Callable[[], None]) -> None:
     """Run in a thread of its own, and raise here what it raises.
@@ -27,6 +29,8 @@ def aside(run: Callable[[], None]) -> None:
     except KeyboardInterrupt:
         from ..io.output import remove_temporaries
 
+        for end in at_interrupt:
+            end()
         remove_temporaries()
         raise
     if raised:

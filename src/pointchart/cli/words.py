@@ -84,3 +84,21 @@ class Unit(StrEnum):
     um = "um"
     inch = "in"
     ft = "ft"
+
+
+class Figure(StrEnum):
+    """Kinds of figures."""
+
+    cloud = "cloud"
+    plane = "plane"
+    mesh = "mesh"
+    deviation = "deviation"
+    zebra = "zebra"
+
+
+class Axis(StrEnum):
+    """Axes of the file."""
+
+    x = "x"
+    y = "y"
+    z = "z"

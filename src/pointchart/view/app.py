@@ -1,0 +1,71 @@
+"""The page put together: six steps, and what a click on the cloud does."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import viser
+
+from ..io import Scan
+from ..typing import Loop
+from .boundary_step import CORNER, BoundaryStep
+from .cloud_steps import SHOW, NeighbourhoodStep, add_cloud
+from .page import Commands, Page
+from .picking import nearest_to_ray
+from .result_steps import MeshStep, SurfaceStep, UVStep
+
+Click = Callable[[int, viser.SceneClickEvent], object]
+
+
+def open_page(path: Path, scan: Scan, commands: Commands, *, loop: Loop | None = None) -> Page:
+    """Open the page of a scan; see `Page` for the parameters.
+
+    Returns
+    -------
+    Page
+        Its `address` opens it in a browser of this machine; `close` ends it.
+
+    Raises
+    ------
+    InputError
+        If the loop is none of the scan's, or the page cannot be guarded.
+    """
+    page = Page(path, scan, commands, loop)
+    gui = page.server.gui
+    click = gui.add_dropdown("A click", (SHOW,), hint="What a click on the cloud does; dragging turns it all the same.")
+    tabs = gui.add_tab_group()
+    with tabs.add_tab("Cloud"):
+        add_cloud(page)
+    with tabs.add_tab("Neighbourhoods"):
+        around = NeighbourhoodStep(page)
+    with tabs.add_tab("Boundary"):
+        boundary = BoundaryStep(page)
+    with tabs.add_tab("UV"):
+        UVStep(page, around.controls)
+    with tabs.add_tab("Mesh"):
+        MeshStep(page)
+    with tabs.add_tab("Surface"):
+        SurfaceStep(page)
+    clicks: dict[str, Click] = {SHOW: around.pick, **boundary.clicks}
+    click.options = (*clicks, CORNER)
+    _listen(page, lambda: click.value, clicks, boundary)
+    page.loop_changed()
+    return page
+
+
+def _listen(page: Page, chosen: Callable[[], str], clicks: dict[str, Click], boundary: BoundaryStep) -> None:
+    scene = page.server.scene
+
+    @scene.on_click()
+    def _(event: viser.SceneClickEvent) -> None:
+        if not page.shows_cloud:
+            return
+        with page.editing():
+            if chosen() == CORNER:
+                boundary.set_corner(event)
+                return
+            drawing = page.drawing
+            row = nearest_to_ray(drawing.places, event.ray_origin, event.ray_direction, reach=drawing.spacing)
+            if row is not None:
+                clicks[chosen()](row, event)
+
+    scene.on_rect_select(modifier="shift")(boundary.set_rectangle)

@@ -1,0 +1,206 @@
+"""The step of the boundary: found, picked by hand, saved."""
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import viser
+
+from .._check import check_loop
+from ..boundary import perimeter, reversed_loop
+from ..errors import InputError
+from ..gaps import place_of
+from ..io import read_loop, read_scan, write_loop
+from ..typing import Floats, Indices
+from .drawing import camera_of
+from .page import CLOUDS, Page
+from .picking import Camera, dropped, inserted, inside_polygon, nearest_of, project
+from .step import Step
+from .words import said_html
+
+FOUND, LOOPS = "loop-found.txt", "loops.ply"
+BOUNDARY_SCORE = 0.5
+INSERT, DROP, CORNER, OUTER = (
+    "inserts it in the loop",
+    "drops the nearest loop point",
+    "sets a polygon corner",
+    "names the outer loop",
+)
+LABELS = (("--outer", "Outer loop at"), ("--component", "Component"))
+UNDO, REVERSE, RESTART, EMPTY = "Undo", "Reverse", "Found loop", "Empty"
+TAKE, LEAVE, CLEAR = "Add inside", "Drop inside", "Clear polygon"
+HOW = (
+    "“A click” above says what a click on the cloud does: insert, drop, or set corners of a polygon. Shift + drag "
+    "makes a rectangle. Points inside are added, where they score as boundary points, or dropped."
+)
+
+
+class BoundaryStep:
+    """The boundary in the tab that is open.
+
+    Parameters
+    ----------
+    page : Page
+    """
+
+    def __init__(self, page: Page) -> None:
+        gui = page.server.gui
+        self._page = page
+        self._found: Indices | None = None
+        self._others: Indices = np.empty(0, np.int64)
+        self._scores: Floats | None = None
+        self._corners = np.empty((0, 3))
+        beside = ["--ply", str(page.folder / LOOPS)]
+        self.step = Step(
+            page,
+            "boundary",
+            "Find the boundary",
+            LABELS,
+            works_on=FOUND,
+            out="loop.txt",
+            take=self._take,
+            beside=beside,
+        )
+        page.where = lambda: self.step.controls.words
+        self.step.controls.on_change(page.loop_changed)
+        gui.add_divider()
+        self._state = gui.add_html("")
+        gui.add_html(said_html([HOW]))
+        edits = gui.add_button_group("By hand", (UNDO, REVERSE, RESTART, EMPTY))
+        edits.on_click(lambda event: self._edit(event.target.value))
+        area = gui.add_button_group("Polygon", (TAKE, LEAVE, CLEAR), hint="It reaches through the cloud.")
+        area.on_click(lambda event: self._edit_inside(event.target.value, event.client))
+        self._add_files()
+        page.on_loop.append(self._show)
+
+    @property
+    def clicks(self) -> dict[str, Callable[[int, viser.SceneClickEvent], object]]:
+        """What clicks on the cloud can do for the boundary, given the point that is meant."""
+        return {INSERT: self._insert, DROP: self._drop, OUTER: self._name_outer}
+
+    def set_corner(self, event: viser.SceneClickEvent) -> None:
+        """Set a corner of the polygon, at the depth of the middle of the cloud."""
+        origin, ray = np.asarray(event.ray_origin), np.asarray(event.ray_direction)
+        self._set_polygon(np.vstack([self._corners, origin + ray * np.linalg.norm(origin)]))
+
+    def set_rectangle(self, event: viser.SceneRectSelectEvent) -> None:
+        """Make a rectangle that was dragged the polygon."""
+        camera = camera_of(event.client)
+        (left, top), (right, bottom) = event.screen_min, event.screen_max
+        places = np.array([[left, top], [right, top], [right, bottom], [left, bottom]])
+        self._set_polygon(_at_middle(camera, places))
+
+    def _take(self) -> None:
+        self._found = read_loop(self._page.folder / FOUND)
+        columns = read_scan(self._page.folder / LOOPS).attributes
+        self._others = np.flatnonzero(columns["loop"] > 1)
+        self._scores = columns["score_total"]
+        self._page.hand.begin(self._found)
+        self._page.add_view(CLOUDS[0], self._show_plain, is_next=False)
+        self._page.add_view(CLOUDS[1], self._show_scores, is_next=False)
+        self._page.look_at(CLOUDS[0])
+        self._page.loop_changed()
+
+    def _show_plain(self) -> None:
+        self._page.drawing.color_cloud(None)
+        self._page.drawing.show("cloud")
+
+    def _show_scores(self) -> None:
+        if self._scores is not None:
+            share = np.clip(self._scores, 0.0, 1.0)[:, None]
+            self._page.drawing.color_cloud((1.0 - share) * [0.8, 0.84, 0.85] + share * [0.78, 0.33, 0.24])
+        self._page.drawing.show("cloud")
+
+    def _edit(self, what: str) -> None:
+        hand = self._page.hand
+        with self._page.reporting("boundary"):
+            if what == UNDO:
+                hand.undo()
+            elif what == REVERSE:
+                hand.change(reversed_loop(hand.loop))
+            elif what == EMPTY:
+                hand.change(np.empty(0, np.int64))
+            elif self._found is None:
+                raise InputError("no boundary has been found yet; find it first")
+            else:
+                hand.begin(self._found)
+            self._page.loop_changed()
+
+    def _edit_inside(self, what: str, client: viser.ClientHandle | None) -> None:
+        hand = self._page.hand
+        with self._page.reporting("boundary"):
+            if what != CLEAR and client is not None:
+                rows = self._rows_inside(camera_of(client), hand.loop if what == LEAVE else self._likely())
+                points = self._page.scan.points
+                hand.change(dropped(hand.loop, rows) if what == LEAVE else inserted(points, hand.loop, rows))
+            self._set_polygon(np.empty((0, 3)))
+            self._page.loop_changed()
+
+    def _likely(self) -> Indices:
+        """Return the points that score as boundary points."""
+        if self._scores is None:
+            raise InputError("points have no scores yet, which tell boundary points; find the boundary first")
+        return np.flatnonzero(self._scores >= BOUNDARY_SCORE)
+
+    def _rows_inside(self, camera: Camera, rows: Indices) -> Indices:
+        if len(self._corners) < 3:
+            raise InputError(
+                f"the polygon has {len(self._corners)} corners; set 3 at least, or drag a rectangle with the shift key"
+            )
+        places = project(self._page.drawing.places[rows], camera)
+        inside = rows[inside_polygon(places, project(self._corners, camera))]
+        if not len(inside):
+            raise InputError(f"none of {len(rows)} boundary points is inside the polygon; draw it round some of them")
+        return inside
+
+    def _insert(self, row: int, _: viser.SceneClickEvent) -> None:
+        hand = self._page.hand
+        hand.change(inserted(self._page.scan.points, hand.loop, row))
+        self._page.loop_changed()
+
+    def _drop(self, row: int, _: viser.SceneClickEvent) -> None:
+        hand = self._page.hand
+        hand.change(dropped(hand.loop, nearest_of(self._page.scan.points, hand.loop, row)))
+        self._page.loop_changed()
+
+    def _name_outer(self, row: int, _: viser.SceneClickEvent) -> None:
+        self.step.controls.set("--outer", place_of(self._page.scan.points, row).strip("()").replace(" ", ""))
+        self._page.loop_changed()
+
+    def _set_polygon(self, corners: Floats) -> None:
+        self._corners = corners
+        self._page.drawing.draw_polygon(corners)
+
+    def _show(self) -> None:
+        loop, points = self._page.hand.loop, self._page.scan.points
+        kind = "by hand" if self._page.hand.is_own else "found"
+        text = f"{kind}: {len(loop)} points, {perimeter(points, loop):.4g} long" if len(loop) else "no loop yet"
+        self._state.content = said_html([text])
+        self._page.drawing.draw_loop(loop, self._others)
+
+    def _add_files(self) -> None:
+        gui, page = self._page.server.gui, self._page
+        save = gui.add_button("Save the loop file", icon=viser.Icon.DOWNLOAD)
+        load = gui.add_upload_button("Load a loop file", icon=viser.Icon.UPLOAD)
+
+        @save.on_click
+        def _(event: viser.GuiEvent[Any]) -> None:
+            with page.reporting("boundary"):
+                if len(page.hand.loop) < 3:
+                    raise InputError(f"the loop has {len(page.hand.loop)} points; it needs at least 3 to be a boundary")
+                page.send(event, "loop.txt", lambda path: write_loop(path, page.hand.loop))
+
+        @load.on_upload
+        def _(_: viser.GuiEvent[Any]) -> None:
+            with page.reporting("boundary"):
+                path = page.folder / "loaded.txt"
+                path.write_bytes(load.value.content)
+                page.hand.change(check_loop(read_loop(path), len(page.scan.points)))
+                page.loop_changed()
+
+
+def _at_middle(camera: Camera, places: Floats) -> Floats:
+    """Return the places in space, as far away as the middle of the cloud, that are seen at places of the picture."""
+    half = np.tan(camera.fov / 2.0) * np.array([camera.aspect, 1.0])
+    rays = np.column_stack([(2.0 * places - 1.0) * half, np.ones(len(places))]) @ camera.axes
+    return np.asarray(camera.position + rays * np.linalg.norm(camera.position))

@@ -1,0 +1,93 @@
+"""The first steps: the cloud, and the neighbourhood of a point that is picked."""
+
+import numpy as np
+import viser
+
+from ..errors import InputError
+from .around import around_point
+from .controls import Controls
+from .page import Page
+from .words import command_html, said_html
+
+SHOW = "shows its neighbourhood"
+NEAREST = "20"
+METHODS = (("--neighbors", "Neighbourhood"), ("-k", "k nearest"), ("--radius", "Radius"), ("--weights", "Weights"))
+
+
+def add_cloud(page: Page) -> None:
+    """Say what was read, in the tab that is open."""
+    points, drawn = page.scan.points, len(page.drawing.drawn)
+    lines = [f"{len(points):,} points"]
+    if drawn < len(points):
+        lines[0] += f"; {drawn:,} of them drawn, clicks find them all"
+    extent = " x ".join(f"{side:.4g}" for side in np.ptp(points, axis=0))
+    lines += [f"extent {extent}", f"from {_place(points.min(axis=0))} to {_place(points.max(axis=0))}"]
+    if page.scan.attributes:
+        lines.append(f"carries {', '.join(page.scan.attributes)}")
+    if len(page.scan.triangles):
+        lines.append(f"{len(page.scan.triangles):,} triangles of the file are not looked at")
+    gui = page.server.gui
+    gui.add_html(said_html(lines))
+    size = gui.add_slider("Point size", 0.2, 3.0, 0.1, 1.0)
+    size.on_update(lambda _: page.drawing.size_points(size.value))
+    dark = gui.add_checkbox("Dark page", False)
+    dark.on_update(lambda _: page.darken(dark.value))
+
+
+class NeighbourhoodStep:
+    """The neighbourhood of a point in the tab that is open.
+
+    Parameters
+    ----------
+    page : Page
+    """
+
+    def __init__(self, page: Page) -> None:
+        self._page, self._centre = page, -1
+        gui = page.server.gui
+        gui.add_html(said_html([f"With “A click {SHOW}”, click a point; neighbours follow the controls."]))
+        self.controls = Controls(page, "param", METHODS)
+        self._said = gui.add_html("")
+        self._line = gui.add_html("")
+        self.controls.on_change(page.loop_changed)
+        self.controls.on_change(self._draw)
+        page.on_loop.append(self._refresh)
+
+    def pick(self, row: int, _: viser.SceneClickEvent) -> None:
+        """Show the neighbours of a point."""
+        self._centre = row
+        self._draw()
+
+    def _refresh(self) -> None:
+        self._line.content = command_html(self._page.line("param", "uv.csv", self.controls.words))
+
+    def _draw(self) -> None:
+        if self._centre < 0:
+            return
+        with self._page.reporting("neighbourhood"):
+            kind, k, radius, weights = (self.controls.value(flag) for flag, _ in METHODS)
+            count, reach = int(_number("-k", k or NEAREST)), _number("--radius", radius or "0")
+            connect, scheme = self._page.commands.rules(kind, k and str(count), radius, weights)
+            around = around_point(self._page.scan.points, self._centre, connect, scheme, k=count, radius=reach)
+            what = ("an open star of" if around.is_open else "a star of") if around.is_star else "its"
+            low, high = around.weights.min(), around.weights.max()
+            lines = [
+                f"point {around.centre} at {_place(self._page.scan.points[around.centre])}",
+                f"{what} {len(around.neighbors)} neighbours, weights from {low:.3g} to {high:.3g}",
+            ]
+            self._said.content = said_html(lines)
+            self._page.drawing.draw_around(around, reach or None)
+
+
+def _number(flag: str, word: str) -> float:
+    try:
+        number = float(word)
+    except ValueError:
+        number = np.nan
+    if not np.isfinite(number):
+        raise InputError(f"{flag} is '{word}'; a number is needed")
+    return number
+
+
+def _place(point: np.ndarray) -> str:
+    return "(" + ", ".join(f"{x:.9g}" for x in point) + ")"

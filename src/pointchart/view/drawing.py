@@ -1,0 +1,180 @@
+"""What the page shows in space: the cloud, a neighbourhood, loops, parameters, mesh and surface."""
+
+import numpy as np
+import viser
+
+from ..picture import STONE
+from ..typing import UV, Floats, Indices, Loop, Points, Triangles
+from .around import Around
+from .frame import Frame, coarser, shades, thinned
+from .picking import Camera
+
+MOST_POINTS, MOST_TRIANGLES = 300_000, 400_000
+SPACING = 0.5  # diameter of a drawn point over the spacing of those drawn
+
+LOOP, OTHER, LINK, PALE, EDGE = (200, 85, 61), (226, 160, 60), (24, 78, 119), (190, 214, 230), (34, 48, 60)
+GROUPS = ("cloud", "plane", "mesh", "flat", "surface")
+
+
+class Drawing:
+    """The scene of the page.
+
+    Parameters
+    ----------
+    server : viser.ViserServer
+    points : (n, 3) array
+        The scan.
+    """
+
+    def __init__(self, server: viser.ViserServer, points: Points) -> None:
+        self._scene = server.scene
+        self._light_up()
+        self.frame = Frame(points)
+        self.places = self.frame.places(points)
+        self.drawn = thinned(len(points), MOST_POINTS)
+        area = float(np.prod(np.sort(np.ptp(self.places, axis=0))[1:]))
+        self.spacing = max(float(np.sqrt(area / len(self.drawn))), 1e-4)
+        self._light = shades(self.places[self.drawn])
+        self._groups = {name: self._scene.add_frame(f"/{name}", show_axes=False) for name in GROUPS}
+        self.show("cloud")
+        self.color_cloud(None)
+        self._look(server)
+
+    def _light_up(self) -> None:
+        """Light meshes from the front; what viser has for it is twenty times as slow without a graphics card."""
+        self._scene.configure_default_lights(enabled=False, cast_shadow=False)
+        self._scene.configure_environment_map(None)
+        self._scene.add_light_ambient("/light/all", intensity=1.1)
+        for name, place, intensity in (("front", (-3.0, -5.0, 4.0), 2.2), ("back", (3.0, 5.0, -1.0), 1.2)):
+            self._scene.add_light_directional(f"/light/{name}", position=place, intensity=intensity)
+
+    def _look(self, server: viser.ViserServer) -> None:
+        server.initial_camera.position = tuple(4.6 * self.frame.facing + np.array([0.0, 0.0, 0.9]))
+        server.initial_camera.look_at = (0.0, 0.0, 0.0)
+        server.initial_camera.up = (0.0, 0.0, 1.0)
+        server.initial_camera.fov = np.deg2rad(45.0)
+
+    def show(self, shown: str) -> None:
+        """Show one of the groups and hide the others."""
+        for name, group in self._groups.items():
+            group.visible = name == shown
+
+    def color_cloud(self, colors: Floats | None) -> None:
+        """Draw the cloud in colours of all its points, (n, 3) from 0 to 1, or as of stone."""
+        base = STONE if colors is None else colors[self.drawn]
+        self._cloud = self._points("/cloud/points", self.places[self.drawn], self._light[:, None] * base)
+
+    def size_points(self, share: float) -> None:
+        """Draw the points of the cloud larger or smaller."""
+        self._cloud.point_size = share * SPACING * self.spacing
+
+    def draw_loop(self, loop: Loop, others: Indices) -> None:
+        """Draw the loop as it is now, and the points of other loops that were found."""
+        self._clear("/cloud/loop", "/cloud/corners", "/cloud/others")
+        place = self.places[loop]
+        if len(loop) > 1:
+            self._lines("/cloud/loop", np.stack([place, np.roll(place, -1, axis=0)], axis=1), LOOP, 3.0)
+        for name, rows, color in (("corners", place, LOOP), ("others", self.places[others], OTHER)):
+            if len(rows):
+                self._points(f"/cloud/{name}", rows, np.array(color) / 255.0, larger=2.0)
+
+    def draw_around(self, around: Around, radius: float | None) -> None:
+        """Draw the neighbours of a point, its links to them, darker the more they weigh, and the ball."""
+        self._clear("/cloud/around")
+        self._scene.add_frame("/cloud/around", show_axes=False)
+        centre, place = self.places[around.centre], self.places[around.neighbors]
+        strength = (around.weights / around.weights.max())[:, None]
+        colors = strength * np.array(LINK) + (1.0 - strength) * np.array(PALE)
+        links = np.stack([np.broadcast_to(centre, place.shape), place], axis=1)
+        self._scene.add_line_segments(
+            "/cloud/around/links",
+            links,
+            np.repeat(colors[:, None], 2, axis=1).astype(np.uint8),
+            thickness=4.0,
+            thickness_units="screen",
+        )
+        size = float(np.linalg.norm(place - centre, axis=1).min()) / (SPACING * self.spacing)
+        self._points("/cloud/around/neighbors", place, colors / 255.0, larger=0.5 * size)
+        self._points("/cloud/around/centre", centre[None], np.array(LOOP) / 255.0, larger=0.6 * size)
+        if around.is_star:
+            sides = np.stack([place, np.roll(place, -1, axis=0)], axis=1)
+            self._lines("/cloud/around/star", sides[:-1] if around.is_open else sides, LINK, 1.5)
+        if radius is not None:
+            self._ball("/cloud/around/ball", centre, radius * self.frame.scale, LINK, opacity=0.15)
+
+    def draw_polygon(self, corners: Floats) -> None:
+        """Draw the polygon that selects points, given its corners in space, (k, 3)."""
+        self._clear("/cloud/polygon")
+        if len(corners) > 1:
+            self._lines("/cloud/polygon", np.stack([corners, np.roll(corners, -1, axis=0)], axis=1), LINK, 2.0)
+        elif len(corners):
+            self._ball("/cloud/polygon", corners[0], 0.01, LINK)
+
+    def draw_plane(self, uv: UV, loop: Loop) -> None:
+        """Draw the parameters of the points, and the boundary in the plane."""
+        self._clear("/plane/loop")
+        flat = self.frame.plane(uv)
+        self._points("/plane/points", flat[self.drawn], self._light[:, None] * STONE, larger=0.8)
+        if len(loop) > 1:
+            place = flat[loop]
+            self._lines("/plane/loop", np.stack([place, np.roll(place, -1, axis=0)], axis=1), LOOP, 2.0)
+
+    def draw_mesh(self, points: Points, triangles: Triangles, uv: UV) -> None:
+        """Draw a mesh in space and in the plane."""
+        self._mesh("mesh", self.frame.places(points), triangles)
+        self._mesh("flat", self.frame.plane(uv), triangles)
+
+    def draw_surface(self, points: Points, triangles: Triangles) -> None:
+        """Draw the mesh of a surface, without its edges."""
+        self._mesh("surface", self.frame.places(points), triangles, is_smooth=True)
+
+    def _points(self, name: str, places: Floats, colors: Floats, *, larger: float = 1.0) -> viser.PointCloudHandle:
+        return self._scene.add_point_cloud(
+            name,
+            places,
+            np.asarray(255.0 * colors, dtype=np.uint8),
+            point_size=SPACING * larger * self.spacing,
+            point_shape="circle",
+            point_shading="flat",
+            precision="float32",
+        )
+
+    def _lines(self, name: str, ends: Floats, color: tuple[int, int, int], pixels: float) -> None:
+        self._scene.add_line_segments(name, ends, color, thickness=pixels, thickness_units="screen")
+
+    def _ball(
+        self, name: str, place: Floats, radius: float, color: tuple[int, int, int], opacity: float | None = None
+    ) -> None:
+        at = float(place[0]), float(place[1]), float(place[2])
+        self._scene.add_icosphere(name, radius, color, position=at, opacity=opacity, cast_shadow=False)
+
+    def _mesh(self, group: str, places: Floats, triangles: Triangles, *, is_smooth: bool = False) -> None:
+        self._clear(f"/{group}/edges")
+        places, triangles = coarser(places, triangles, MOST_TRIANGLES)
+        self._scene.add_mesh_simple(
+            f"/{group}/faces", places, triangles, color=STONE, side="double", cast_shadow=False, receive_shadow=False
+        )
+        if not is_smooth:
+            self._scene.add_mesh_simple(
+                f"/{group}/edges",
+                places,
+                triangles,
+                color=EDGE,
+                wireframe=True,
+                opacity=0.35,
+                cast_shadow=False,
+                receive_shadow=False,
+            )
+
+    def _clear(self, *names: str) -> None:
+        for name in names:
+            self._scene.remove_by_name(name)
+
+
+def camera_of(client: viser.ClientHandle) -> Camera:
+    """Return the camera of the browser."""
+    from scipy.spatial.transform import Rotation
+
+    seen = client.camera
+    turn = Rotation.from_quat(np.roll(seen.wxyz, -1)).as_matrix()
+    return Camera(np.asarray(seen.position), np.asarray(turn.T), float(seen.fov), float(seen.aspect))

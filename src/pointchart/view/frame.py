@@ -1,0 +1,103 @@
+"""Where the points of a scan are on the page: centred, of one size, upright, and thinned where they are many."""
+
+import numpy as np
+
+from ..neighbors import nearest
+from ..stars import normals
+from ..typing import Floats, Indices, Points, Triangles
+
+SIZE = 4.0  # diagonal of the scan on the page
+LEVEL = 0.7  # cosine of the angle to z up to which a patch is seen as on a map, with y up
+
+
+class Frame:
+    """The way from the scan to the page, in whose space z is up.
+
+    Parameters
+    ----------
+    points : (n, 3) array
+
+    Examples
+    --------
+    >>> sheet = np.array([[7.0, 7, 0], [9, 7, 0], [9, 9, 0], [7, 9, 0.5]])
+    >>> frame = Frame(sheet)
+    >>> [round(float(x), 2) for x in frame.places(sheet)[2]], [round(float(x), 2) for x in frame.facing]
+    ([1.39, 0.35, 1.39], [0.12, -0.98, -0.12])
+    """
+
+    def __init__(self, points: Points) -> None:
+        low, high = points.min(axis=0), points.max(axis=0)
+        self._middle = (low + high) / 2.0
+        self.scale = SIZE / float(np.linalg.norm(high - low))
+        some = (points[:: max(1, len(points) // 10_000)] - self._middle) * self.scale
+        facing = np.linalg.svd(some - some.mean(axis=0), full_matrices=False)[2][2]
+        is_map = abs(facing[2]) > LEVEL
+        # Rows are the directions right, away and up.
+        self._axes = np.array([[1.0, 0, 0], [0, 0, -1], [0, 1, 0]]) if is_map else np.eye(3)
+        turned = self._axes @ facing
+        self.facing = turned if turned[1] <= 0.0 else -turned
+
+    def places(self, points: Points) -> Floats:
+        """Return where points are on the page, (n, 3) float32."""
+        return np.asarray((((points - self._middle) * self.scale) @ self._axes.T).astype(np.float32))
+
+    def plane(self, uv: Floats) -> Floats:
+        """Return where parameters are on the page, upright and facing the viewer, (n, 3) float32."""
+        low, high = uv.min(axis=0), uv.max(axis=0)
+        flat = (uv - (low + high) / 2.0) * (SIZE / max(float(np.linalg.norm(high - low)), 1e-300))
+        return np.column_stack([flat[:, 0], np.zeros(len(uv)), flat[:, 1]]).astype(np.float32)
+
+
+def thinned(n_points: int, most: int) -> Indices:
+    """Choose rows of so many points at random, the same ones on every call.
+
+    Examples
+    --------
+    >>> thinned(3, 5).tolist(), len(thinned(100, 5))
+    ([0, 1, 2], 5)
+    """
+    if n_points <= most:
+        return np.arange(n_points)
+    return np.sort(np.random.default_rng(0).choice(n_points, most, replace=False, shuffle=False))
+
+
+def coarser(places: Floats, triangles: Triangles, most: int) -> tuple[Floats, Triangles]:
+    """Join the vertices of a mesh in each cell of a grid, so that a large one can be drawn.
+
+    Parameters
+    ----------
+    places : (n, 3) float32 array
+    triangles : (m, 3) int array
+    most : int
+        Triangles up to which a mesh stays as it is.
+
+    Returns
+    -------
+    places, triangles
+
+    Examples
+    --------
+    >>> strip = np.array([[0, 0, 0], [0.9, 0, 0], [0.8, 0.1, 0], [0.1, 0.9, 0]], np.float32)
+    >>> [len(part) for part in coarser(strip, np.array([[0, 1, 2], [0, 2, 3]]), 8)]
+    [4, 2]
+    """
+    if len(triangles) <= most:
+        return places, triangles
+    # A surface of m triangles crosses some m / 2 cells, and the number of cells falls with the square of their size.
+    extent = float(np.ptp(places, axis=0).max())
+    cell = extent / np.sqrt(most / 2.0)
+    _, first, joined = np.unique(
+        np.floor(places / cell).astype(np.int64), axis=0, return_index=True, return_inverse=True
+    )
+    corners = joined.reshape(-1)[triangles]
+    a, b, c = corners.T
+    kept = np.unique(corners[(a != b) & (b != c) & (c != a)], axis=0)
+    return places[first], kept
+
+
+def shades(places: Floats) -> Floats:
+    """Light points as if they were a surface seen from the front, above and left, (n,), from 0 to 1."""
+    points = places.astype(np.float64)
+    upright = normals(points, nearest(points, 12))
+    light = np.array([-0.45, -0.7, 0.55]) / np.linalg.norm([-0.45, -0.7, 0.55])
+    return np.asarray(0.35 + 0.65 * np.abs(upright @ light))

@@ -1,0 +1,176 @@
+"""The door of the page: loopback only, a token in its address, and no other origin."""
+
+import io
+import secrets
+from collections.abc import Awaitable, Callable, Iterator
+from contextlib import contextmanager, redirect_stdout
+from http import HTTPStatus
+from http.client import HTTPConnection
+from inspect import isawaitable
+from typing import Any
+from urllib.parse import parse_qs, urlsplit
+
+import viser
+import websockets.asyncio.server as sockets
+from websockets.asyncio.server import ServerConnection
+from websockets.datastructures import Headers
+from websockets.http11 import Request, Response
+
+from ..errors import InputError
+
+HOST = "127.0.0.1"
+REFUSED = "this page opens only by the address that pointchart printed in the terminal, which carries a token"
+KEPT_IN = {
+    "Referrer-Policy": "no-referrer",
+    "X-Content-Type-Options": "nosniff",
+    "Cache-Control": "no-store",
+    "Content-Security-Policy": "default-src 'self' 'unsafe-inline' 'unsafe-eval' data: blob:; frame-ancestors 'none'; "
+    "connect-src 'self' data: blob: ws://127.0.0.1:{port} ws://localhost:{port}",
+}
+
+Answer = Callable[[ServerConnection, Request], Response | Awaitable[Response | None] | None]
+
+
+class LocalServer(viser.ViserServer):
+    """A server whose page cannot be shared: a tunnel would show it to the world."""
+
+    def request_share_url(self, verbose: bool = True) -> None:
+        """Share nothing."""
+
+
+def start_server(token: str) -> LocalServer:
+    """Start a guarded server on a free port of this machine's own address.
+
+    Parameters
+    ----------
+    token : str
+        Without it, nothing is answered.
+
+    Returns
+    -------
+    LocalServer
+
+    Raises
+    ------
+    InputError
+        If the server would answer without the token: then viser has changed and is stopped.
+    """
+    with redirect_stdout(io.StringIO()), _guarding(token):
+        server = LocalServer(HOST, 0, label="pointchart", verbose=False)
+    port = server.get_port()
+    if not all(_is_refused(port, headers) for headers in ({}, _upgrade(port))):
+        stop_server(server)
+        raise InputError(
+            f"viser {viser.__version__} answers without the token of the page, so it is not started; "
+            "take another version: pip install 'viser==1.1.1'"
+        )
+    return server
+
+
+def stop_server(server: LocalServer) -> None:
+    """Stop a server without a word."""
+    with redirect_stdout(io.StringIO()):
+        server.stop()
+
+
+def address(server: LocalServer, token: str) -> str:
+    """Return the address that opens the page."""
+    return f"http://{HOST}:{server.get_port()}/?token={token}"
+
+
+def is_welcome(path: str, headers: Headers, token: str, port: int) -> bool:
+    """Tell whether a request comes by the right name, from our own page or none, with the token.
+
+    Parameters
+    ----------
+    path : str
+        With its query, which may hold the token; else a cookie has to.
+    headers : Headers
+        A foreign `Host` is a name that was made to point here; a websocket has to name its `Origin`.
+    token : str
+    port : int
+
+    Examples
+    --------
+    >>> mine = Headers(Host="127.0.0.1:8000", Cookie="a=b; pointchart_8000=secret")
+    >>> is_welcome("/", mine, "secret", 8000), is_welcome("/", mine, "other", 8000)
+    (True, False)
+    >>> is_welcome("/?token=secret", Headers(Host="evil.example:8000"), "secret", 8000)
+    False
+    """
+    hosts, origins = headers.get_all("Host"), headers.get_all("Origin")
+    if len(hosts) != 1 or hosts[0] not in (f"{HOST}:{port}", f"localhost:{port}"):
+        return False
+    is_socket = bool(headers.get_all("Upgrade"))
+    if any(origin != f"http://{hosts[0]}" for origin in origins) or (is_socket and len(origins) != 1):
+        return False
+    return any(_same(given, token) for given in (_in_query(path), _in_cookie(headers, port)))
+
+
+@contextmanager
+def _guarding(token: str) -> Iterator[None]:
+    """Have every request of the servers that start in the body pass the guard before it is answered."""
+    serve = sockets.serve
+
+    def guarded(*arguments: Any, process_request: Answer | None = None, **options: Any) -> Any:
+        return serve(*arguments, process_request=_guard(token, process_request), **options)
+
+    sockets.serve = guarded  # type: ignore[assignment, misc]
+    try:
+        yield
+    finally:
+        sockets.serve = serve  # type: ignore[misc]
+
+
+def _guard(token: str, answer: Answer | None) -> Answer:
+    async def check(connection: ServerConnection, request: Request) -> Response | None:
+        port = connection.local_address[1]
+        if not is_welcome(request.path, request.headers, token, port):
+            return connection.respond(HTTPStatus.FORBIDDEN, f"{REFUSED}\n")
+        given = None if answer is None else answer(connection, request)
+        response = await given if isawaitable(given) else given
+        if response is not None:
+            for name, value in KEPT_IN.items():
+                response.headers[name] = value.format(port=port)
+            if _same(_in_query(request.path), token):
+                response.headers["Set-Cookie"] = f"{_cookie(port)}={token}; HttpOnly; SameSite=Strict; Path=/"
+        return response
+
+    return check
+
+
+def _same(given: str, token: str) -> bool:
+    return secrets.compare_digest(given.encode(), token.encode())
+
+
+def _in_query(path: str) -> str:
+    return parse_qs(urlsplit(path).query).get("token", [""])[0]
+
+
+def _in_cookie(headers: Headers, port: int) -> str:
+    pairs = [pair.strip().partition("=") for line in headers.get_all("Cookie") for pair in line.split(";")]
+    return next((value for name, _, value in pairs if name == _cookie(port)), "")
+
+
+def _cookie(port: int) -> str:
+    # Cookies are one jar for all ports of a host.
+    return f"pointchart_{port}"
+
+
+def _upgrade(port: int) -> dict[str, str]:
+    return {
+        "Connection": "Upgrade",
+        "Upgrade": "websocket",
+        "Origin": f"http://{HOST}:{port}",
+        "Sec-WebSocket-Key": "AAAAAAAAAAAAAAAAAAAAAA==",
+        "Sec-WebSocket-Version": "13",
+    }
+
+
+def _is_refused(port: int, headers: dict[str, str]) -> bool:
+    connection = HTTPConnection(HOST, port, timeout=10)
+    try:
+        connection.request("GET", "/", headers=headers)
+        return connection.getresponse().status == HTTPStatus.FORBIDDEN
+    finally:
+        connection.close()

@@ -1,0 +1,149 @@
+"""The last steps: parameters, mesh and surface, each run, shown and exported."""
+
+import shutil
+from pathlib import Path
+
+import numpy as np
+
+from ..errors import InputError
+from ..fit import tessellate
+from ..io import MESH_SUFFIXES, UV_SUFFIXES, Scan, read_scan, write_mesh, write_uv
+from ..surface_io import CAD_SUFFIXES, read_surface_json, write_cad
+from ..typing import UV
+from .controls import Controls
+from .page import Page
+from .step import Step, add_export
+
+UV_FILE, MESH_FILE, SURFACE_FILE = "uv-found.ply", "mesh-made.ply", "surface-fitted.json"
+SURFACE_SUFFIXES = (*CAD_SUFFIXES, ".json", *MESH_SUFFIXES)
+DRAWN, TESSELLATED = 40_000, 100_000  # points of the mesh of a surface: on the page, and in a file
+DOMAIN = (("--domain", "Domain"), ("--corners", "Corners"), ("--spacing", "Spacing"))
+MESH = (("--holes", "Gaps"), *DOMAIN, ("--uv", "Parameters"), ("--swap", "Edge swaps"))
+SURFACE = (
+    ("--tolerance", "Tolerance"),
+    ("--outliers", "Outliers"),
+    ("--unit", "Unit"),
+    ("--degree", "Degree"),
+    ("--max-control-points", "Control points"),
+    ("--fairness", "Fairness"),
+    ("--robust", "Robust"),
+    ("--domain", "Domain"),
+    ("--corners", "Corners"),
+    ("--holes", "Gaps"),
+    ("--best-effort", "Best effort"),
+)
+
+
+class UVStep:
+    """The paper's parameters in the tab that is open: of the neighbourhoods chosen in the step before.
+
+    Parameters
+    ----------
+    page : Page
+    neighbourhoods : Controls
+        Of that step.
+    """
+
+    def __init__(self, page: Page, neighbourhoods: Controls) -> None:
+        self._page = page
+        self._step = Step(
+            page,
+            "param",
+            "Map to the plane",
+            DOMAIN,
+            also=neighbourhoods,
+            works_on=UV_FILE,
+            out="uv.csv",
+            take=self._take,
+        )
+        self._step.exported_as(add_export(page, "Export the parameters", "uv", UV_SUFFIXES, self._write))
+
+    def _take(self) -> None:
+        uv = _uv(read_scan(self._page.folder / UV_FILE))
+        page = self._page
+        page.drawing.draw_plane(uv, page.hand.loop)
+        page.add_view("parameters (uv)", lambda: page.drawing.show("plane"))
+
+    def _write(self, path: Path) -> None:
+        read = read_scan(_made(self._page, UV_FILE, "parameters", "map to the plane"))
+        write_uv(path, _uv(read), points=read.points, attributes=_without(read, "u", "v"))
+
+
+class MeshStep:
+    """The certified mesh in the tab that is open.
+
+    Parameters
+    ----------
+    page : Page
+    """
+
+    def __init__(self, page: Page) -> None:
+        self._page = page
+        self._step = Step(page, "mesh", "Make the mesh", MESH, works_on=MESH_FILE, out="mesh.ply", take=self._take)
+        self._step.exported_as(add_export(page, "Export the mesh", "mesh", MESH_SUFFIXES, self._write))
+
+    def _take(self) -> None:
+        page, read = self._page, read_scan(self._page.folder / MESH_FILE)
+        page.drawing.draw_mesh(read.points, read.triangles, _uv(read))
+        page.add_view("mesh in the plane", lambda: page.drawing.show("flat"), is_next=False)
+        page.add_view("mesh", lambda: page.drawing.show("mesh"))
+
+    def _write(self, path: Path) -> None:
+        made = _made(self._page, MESH_FILE, "mesh", "make it")
+        if path.suffix == made.suffix:
+            shutil.copyfile(made, path)
+            return
+        read = read_scan(made)
+        left_out = ("u", "v") if path.suffix == ".npz" else ("u", "v", "stretch")
+        notes = write_mesh(path, read.points, read.triangles, uv=_uv(read), attributes=_without(read, *left_out))
+        for note in notes:
+            self._page.notify("mesh", note, color="gray")
+
+
+class SurfaceStep:
+    """The fitted surface in the tab that is open.
+
+    Parameters
+    ----------
+    page : Page
+    """
+
+    def __init__(self, page: Page) -> None:
+        self._page = page
+        self._step = Step(
+            page, "fit", "Fit the surface", SURFACE, works_on=SURFACE_FILE, out="surface.step", take=self._take
+        )
+        self._step.exported_as(add_export(page, "Export the surface", "surface", SURFACE_SUFFIXES, self._write))
+
+    def _take(self) -> None:
+        page = self._page
+        surface, loops, _ = read_surface_json(page.folder / SURFACE_FILE)
+        points, triangles, _ = tessellate(surface, loops, DRAWN)
+        page.drawing.draw_surface(points, triangles)
+        page.add_view("surface", lambda: page.drawing.show("surface"))
+
+    def _write(self, path: Path) -> None:
+        made = _made(self._page, SURFACE_FILE, "surface", "fit it")
+        surface, loops, unit = read_surface_json(made)
+        if path.suffix in CAD_SUFFIXES:
+            write_cad(path, surface, loops, unit=unit, name=path.stem)
+        elif path.suffix == made.suffix:
+            shutil.copyfile(made, path)
+        else:
+            points, triangles, uv = tessellate(surface, loops, TESSELLATED)
+            write_mesh(path, points, triangles, uv=uv)
+
+
+def _made(page: Page, name: str, what: str, remedy: str) -> Path:
+    path = page.folder / name
+    if not path.exists():
+        raise InputError(f"there is no {what} yet; {remedy} first")
+    return path
+
+
+def _uv(read: Scan) -> UV:
+    return np.column_stack([read.attributes["u"], read.attributes["v"]]).astype(np.float64)
+
+
+def _without(read: Scan, *names: str) -> dict[str, np.ndarray]:
+    return {name: column for name, column in read.attributes.items() if name not in names}

@@ -1,0 +1,107 @@
+"""A step of the pipeline on the page: its controls, its command line, a button to run it, what it said."""
+
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any
+
+import viser
+
+from .controls import Controls
+from .page import Page
+from .words import command_html, refused_html, said_html
+
+
+class Step:
+    """A command with its controls, in the tab that is open.
+
+    Parameters
+    ----------
+    page : Page
+    command : str
+        As `mesh`.
+    title : str
+        Of its button.
+    labels : sequence of (flag, label)
+        The options that have controls.
+    works_on : str
+        The file that a run writes into the folder between steps.
+    out : str
+        The file that the command line names.
+    take : callable
+        Called when a run has ended well.
+    also : Controls, optional
+        Of another step, whose words are given as well.
+    beside : sequence of str
+        Words of the run only: files beside, for the page to draw.
+    """
+
+    def __init__(
+        self,
+        page: Page,
+        command: str,
+        title: str,
+        labels: Sequence[tuple[str, str]],
+        *,
+        works_on: str,
+        out: str,
+        take: Callable[[], object],
+        also: Controls | None = None,
+        beside: Sequence[str] = (),
+    ) -> None:
+        self._page, self._command, self._works_on, self._out = page, command, works_on, out
+        self._take, self._also, self._beside = take, also, beside
+        self.controls = Controls(page, command, labels)
+        button = page.server.gui.add_button(title, color="blue", icon=viser.Icon.PLAYER_PLAY)
+        button.on_click(lambda _: self.run())
+        self._line = page.server.gui.add_html("")
+        self._said = page.server.gui.add_html("")
+        self.controls.on_change(self.refresh)
+        page.on_loop.append(self.refresh)
+
+    @property
+    def words(self) -> list[str]:
+        """The options given."""
+        return [*(self._also.words if self._also else []), *self.controls.words]
+
+    def exported_as(self, suffix: Any) -> None:
+        """Name a file of the format chosen on the command line."""
+
+        def rename() -> None:
+            self._out = str(Path(self._out).with_suffix(suffix.value))
+            self.refresh()
+
+        suffix.value = Path(self._out).suffix
+        suffix.on_update(lambda _: rename())
+
+    def refresh(self) -> None:
+        """Write the command line again."""
+        self._line.content = command_html(self._page.line(self._command, self._out, self.words))
+
+    def run(self) -> None:
+        """Run the command, and show what it said or why it stopped."""
+        with self._page.reporting(self._command, self._refuse):
+            lines = self._page.run(self._command, self._works_on, [*self.words, *self._beside])
+            self._take()
+            self._said.content = said_html(
+                [line.replace(self._works_on, self._out) for line in lines if not line.startswith("pointchart: ")]
+            )
+
+    def _refuse(self, sentence: str) -> None:
+        self._said.content = refused_html(sentence.replace(self._works_on, self._out))
+
+
+def add_export(page: Page, title: str, stem: str, suffixes: Sequence[str], write: Callable[[Path], object]) -> Any:
+    """Add a choice of formats and a button that sends the file; return the choice.
+
+    `write` is called with the path of a file in the folder between steps, and raises where nothing has been run yet.
+    """
+    gui = page.server.gui
+    suffix = gui.add_dropdown("Format", tuple(suffixes))
+    button = gui.add_button(title, icon=viser.Icon.DOWNLOAD)
+
+    @button.on_click
+    def _(event: viser.GuiEvent[Any]) -> None:
+        with page.reporting(title):
+            page.send(event, f"{stem}{suffix.value}", write)
+
+    return suffix

@@ -1,0 +1,50 @@
+"""Text of the page: a command line to copy, what a command said, and why it stopped."""
+
+from collections.abc import Sequence
+from html import escape
+
+BOX = "margin:.4em .75em;border-radius:4px;font-size:.85em;line-height:1.45;overflow-wrap:anywhere"
+FRAMED = f"{BOX};padding:.5em .7em"
+MARKS = {"[ok] ": ("✓", "#2f9e5b"), "[!!] ": ("✗", "#d0432c"), "[--] ": ("·", "inherit")}
+
+
+def command_html(line: str) -> str:
+    """Show a command line with a button that copies it.
+
+    Examples
+    --------
+    >>> "a &amp; b</code>" in command_html("a & b")
+    True
+    """
+    copy = "navigator.clipboard.writeText(this.parentElement.querySelector('code').textContent)"
+    button = (
+        f'<button title="copy" onclick="{copy}" style="float:right;margin-left:.6em;border:0;background:none;'
+        'color:inherit;cursor:pointer;font:inherit;text-decoration:underline">copy</button>'
+    )
+    code = f'<code style="font-family:ui-monospace,monospace">{escape(line)}</code>'
+    return f'<div class="command" style="{FRAMED};background:rgba(128,140,150,.16)">{button}{code}</div>'
+
+
+def said_html(lines: Sequence[str]) -> str:
+    """Show what a command said, one line each; the lines of a certificate as a checklist.
+
+    Examples
+    --------
+    >>> "✓" in said_html(["[ok] one part"]), said_html([])
+    (True, '')
+    """
+    rows = []
+    for line in lines:
+        mark, color = MARKS.get(line[:5], ("", "inherit"))
+        text = line[5:] if mark else line
+        sign = f'<span style="color:{color};font-weight:700;display:inline-block;width:1.2em">{mark}</span>'
+        rows.append(f"<div>{sign if mark else ''}{escape(text)}</div>")
+    return f'<div class="said" style="{BOX}">{"".join(rows)}</div>' if rows else ""
+
+
+def refused_html(sentence: str) -> str:
+    """Show why a step has stopped, in the very sentence of the command line."""
+    return (
+        f'<div class="refused" style="{FRAMED};border-left:4px solid #d0432c;background:rgba(208,67,44,.12)">'
+        f"{escape(sentence)}</div>"
+    )

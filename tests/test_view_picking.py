@@ -1,0 +1,216 @@
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
+from matplotlib.path import Path
+
+from pointchart import InputError, ball, delaunay_star, mean_value, nearest, reciprocal_distance, shapes
+from pointchart.boundary import is_same_loop, perimeter
+from pointchart.view.around import around_point
+from pointchart.view.frame import Frame, coarser, shades, thinned
+from pointchart.view.picking import (
+    Camera,
+    LoopByHand,
+    dropped,
+    inserted,
+    inside_polygon,
+    nearest_of,
+    nearest_to_ray,
+    project,
+)
+
+RELIEF = shapes.relief(400, seed=2)
+CAMERA = Camera(np.array([0.2, -0.1, 4.0]), np.diag([1.0, -1.0, -1.0]), fov=0.8, aspect=1.5)
+HAIR = 1e-9  # radians
+coordinates = st.floats(-8.0, 8.0, allow_nan=False).map(lambda x: round(x, 3))
+
+
+# Clicks
+
+
+def ray_through(place, camera=CAMERA):
+    half = np.tan(camera.fov / 2.0) * np.array([camera.aspect, 1.0])
+    return np.append((2.0 * place - 1.0) * half, 1.0) @ camera.axes
+
+
+@pytest.mark.parametrize("row", range(0, 400, 57))
+def test_a_click_where_a_point_is_seen_finds_it(row):
+    place = project(RELIEF.points[row : row + 1], CAMERA)[0]
+    assert nearest_to_ray(RELIEF.points, CAMERA.position, ray_through(place), aim=HAIR) == row
+
+
+@given(arrays(float, (12, 3), elements=coordinates), arrays(float, 3, elements=coordinates))
+def test_the_point_found_is_the_nearest_to_the_ray_of_all_points_when_all_are_in_one_layer(points, direction):
+    if np.linalg.norm(direction) < 0.1:
+        return
+    ray = direction / np.linalg.norm(direction)
+    layer = points - (points @ ray)[:, None] * ray + 30.0 * ray
+    found = nearest_to_ray(layer, np.zeros(3), direction, aim=1.5)
+    beside = np.linalg.norm(layer - (layer @ ray)[:, None] * ray, axis=1)
+    assert beside[found] == pytest.approx(beside.min(), abs=1e-6)
+
+
+def test_of_two_sheets_the_one_in_front_is_hit():
+    sheet = np.array([[0.01, 0, 0], [0, 0.02, 0], [5, 5, 0]])
+    both = np.concatenate([sheet - [0, 0, 3], sheet])
+    assert nearest_to_ray(both, [0, 0, 9.0], [0, 0, -1.0]) == 3
+
+
+def test_a_click_beside_the_cloud_or_with_all_of_it_behind_hits_nothing():
+    assert nearest_to_ray(RELIEF.points, CAMERA.position, [1, 0, 0]) is None
+    assert nearest_to_ray(RELIEF.points, CAMERA.position, [0, 0, 1]) is None
+
+
+def test_points_as_large_as_they_are_drawn_are_hit_over_all_their_size():
+    point = np.array([[0.3, 0.0, 0.0]])
+    assert nearest_to_ray(point, [0, 0, 1.0], [0, 0, -1.0]) is None
+    assert nearest_to_ray(point, [0, 0, 1.0], [0, 0, -1.0], reach=0.31) == 0
+
+
+# Polygons
+
+
+@given(arrays(float, (30, 2), elements=coordinates), arrays(float, (6, 2), elements=coordinates))
+def test_a_convex_polygon_holds_the_places_that_matplotlib_finds_in_it(places, cloud):
+    from scipy.spatial import ConvexHull, QhullError
+
+    try:
+        polygon = cloud[ConvexHull(cloud).vertices]
+    except QhullError:
+        return
+    path = Path(polygon)
+    clear = path.contains_points(places, radius=1e-6) == path.contains_points(places, radius=-1e-6)
+    assert np.array_equal(inside_polygon(places, polygon)[clear], path.contains_points(places)[clear])
+
+
+def test_an_arrow_holds_the_places_between_its_wings_and_not_its_notch():
+    arrow = [[0, 0], [4, 2], [0, 4], [1, 2]]
+    for corners in (arrow, arrow[::-1]):
+        assert inside_polygon(np.array([[2.0, 2], [0.4, 2], [0.3, 0.3], [-1, 2]]), corners).tolist() == [
+            True,
+            False,
+            True,
+            False,
+        ]
+
+
+def test_points_behind_the_camera_are_in_no_polygon():
+    screen = [[0, 0], [1, 0], [1, 1], [0, 1]]
+    behind = project(np.array([[0.2, -0.1, 9.0], [0.2, -0.1, 0.0]]), CAMERA)
+    assert inside_polygon(behind, screen).tolist() == [False, True]
+
+
+# Loops by hand
+
+
+@pytest.mark.parametrize("place", [0, 10, 40, len(RELIEF.boundary) - 1])
+def test_a_point_dropped_and_inserted_again_is_where_it_was(place):
+    loop = np.asarray(RELIEF.boundary)
+    mended = inserted(RELIEF.points, dropped(loop, loop[place]), loop[place])
+    assert is_same_loop(mended, loop)
+
+
+@given(st.sets(st.integers(0, 399), max_size=12))
+def test_insertion_keeps_the_loop_and_takes_each_point_once(rows):
+    loop = np.asarray(RELIEF.boundary)
+    longer = inserted(RELIEF.points, loop, sorted(rows))
+    assert sorted(longer) == sorted(set(loop) | rows)
+    assert np.array_equal(longer[np.isin(longer, loop)], loop)
+
+
+@pytest.mark.parametrize("row", [200, 303])
+def test_a_point_is_inserted_where_it_lengthens_the_loop_least(row):
+    loop = np.asarray(RELIEF.boundary)
+    lengths = [perimeter(RELIEF.points, np.insert(loop, k, row)) for k in range(len(loop))]
+    assert perimeter(RELIEF.points, inserted(RELIEF.points, loop, row)) == pytest.approx(min(lengths))
+
+
+def test_a_loop_is_begun_from_nothing_point_by_point():
+    loop = np.empty(0, np.int64)
+    for row in (5, 3, 9):
+        loop = inserted(RELIEF.points, loop, row)
+    assert is_same_loop(loop, np.array([5, 3, 9]))
+
+
+def test_a_loop_by_hand_is_undone_step_by_step_to_where_it_began():
+    hand = LoopByHand(400, RELIEF.boundary)
+    assert hand.is_own
+    hand.begin(np.array([3, 1, 2]))
+    assert not hand.is_own
+    hand.change(np.array([3, 1, 2]))
+    hand.change(np.array([3, 1]))
+    for _ in range(5):
+        hand.undo()
+    assert np.array_equal(hand.loop, RELIEF.boundary)
+
+
+def test_a_loop_of_other_points_is_refused():
+    with pytest.raises(InputError, match="indices run from 0 to 39"):
+        LoopByHand(40, RELIEF.boundary)
+    with pytest.raises(InputError, match="the loop has 0 points"):
+        nearest_of(RELIEF.points, np.empty(0, np.int64), 3)
+
+
+# Neighbourhoods of one point
+
+
+@pytest.mark.parametrize(
+    ("connect", "scheme", "reach"),
+    [
+        (lambda points: ball(points, 0.4), reciprocal_distance, {"radius": 0.4}),
+        (lambda points: nearest(points, 12), reciprocal_distance, {"k": 12}),
+        (lambda points: delaunay_star(points, nearest(points, 20)), mean_value, {"k": 20}),
+    ],
+    ids=["ball", "nearest", "star"],
+)
+@pytest.mark.parametrize("centre", [0, 77, 399])
+def test_neighbours_of_one_point_are_those_that_all_points_give(connect, scheme, reach, centre):
+    offset = np.array([5e5, 4e6, 100.0])
+    one = around_point(RELIEF.points + offset, centre, connect, scheme, **reach)
+    whole = connect(RELIEF.points)
+    row = slice(whole.indptr[centre], whole.indptr[centre + 1])
+    weights = scheme(RELIEF.points, whole)[row]
+    order, other = np.argsort(one.neighbors), np.argsort(whole.indices[row])
+    assert np.array_equal(one.neighbors[order], whole.indices[row][other])
+    assert one.weights[order] == pytest.approx(weights[other], rel=1e-5)
+    assert one.weights.sum() == pytest.approx(1.0)
+
+
+def test_too_small_a_ball_is_refused_with_the_rows_of_the_scan():
+    with pytest.raises(InputError, match=r"the radius leaves points .*77"):
+        around_point(RELIEF.points, 77, lambda points: ball(points, 1e-6), reciprocal_distance, radius=1e-6)
+
+
+# What is drawn
+
+
+@pytest.mark.parametrize("offset", [0.0, 5e6])
+def test_places_on_the_page_keep_shapes_at_any_offset(offset):
+    places = Frame(RELIEF.points + offset).places(RELIEF.points + offset)
+    assert places.dtype == np.float32
+    scale = np.linalg.norm(np.ptp(places, axis=0)) / np.linalg.norm(np.ptp(RELIEF.points, axis=0))
+    steps = np.linalg.norm(np.diff(places, axis=0), axis=1)
+    assert steps == pytest.approx(scale * np.linalg.norm(np.diff(RELIEF.points, axis=0), axis=1), rel=1e-4, abs=1e-5)
+
+
+def test_a_level_patch_faces_the_viewer_with_y_up_and_a_wall_stands():
+    level, wall = Frame(RELIEF.points), Frame(RELIEF.points[:, [0, 2, 1]])
+    assert level.facing[1] < -0.9
+    assert wall.facing[1] < -0.9
+    assert np.ptp(level.places(RELIEF.points), axis=0)[1] < 1.2
+
+
+def test_large_clouds_and_meshes_are_thinned_and_small_ones_are_not():
+    assert np.array_equal(thinned(400, 400), np.arange(400))
+    assert len(np.unique(thinned(4000, 400))) == 400
+    places = RELIEF.points.astype(np.float32)
+    assert coarser(places, RELIEF.triangles, 735)[1] is RELIEF.triangles
+    fewer, triangles = coarser(places, RELIEF.triangles, 200)
+    assert 40 < len(triangles) < 400
+    assert triangles.max() < len(fewer)
+
+
+def test_light_is_between_dark_and_full():
+    light = shades(RELIEF.points.astype(np.float32))
+    assert 0.35 <= light.min() < light.max() <= 1.0
