@@ -6,6 +6,7 @@ python benchmarks/gallery.py docs/figures
 import argparse
 import shlex
 import subprocess
+import sys
 import tempfile
 from pathlib import Path
 
@@ -27,7 +28,7 @@ def main() -> None:
     out.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory() as folder:
         for words in commands():
-            subprocess.run(words, cwd=folder, check=True)
+            subprocess.run([sys.executable, "-m", *words], cwd=folder, check=True)
         for drawn in sorted(Path(folder).glob("*.png")):
             with Image.open(drawn) as picture:
                 small = picture.convert("RGB").resize((WIDTH, round(WIDTH * picture.height / picture.width)))

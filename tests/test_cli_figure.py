@@ -97,7 +97,6 @@ def test_a_view_from_above_is_square_for_a_half_sphere_and_flat_from_the_side(dr
         (["cloud", "empty.xyz", "-o", "a.png"], "empty.xyz"),
         (["cloud", "scan.ply", "-o", "a.png", "--color", "mass"], "scan.ply: there is no 'mass' for its 400 points"),
         (["mesh", "bare.ply", "-o", "a.png", "--color", "stretch"], "there is no 'stretch' for its 400 points, only n"),
-        (["cloud", "scan.ply", "-o", "a.png", "--width", "3"], "the figure is 3 mm wide; take 20 to 1000"),
         (["deviation", "surface.json", "--points", "flat.ply", "-o", "a.png", "--limit", "0"], "give a length more"),
         (["cloud", "twin.svg", "-o", "twin.svg"], "twin.svg: the output is also twin.svg, which would be lost"),
     ],
@@ -125,7 +124,12 @@ def test_what_cannot_be_drawn_is_one_sentence_and_leaves_no_file(draw, words, se
         (["zebra", "surface.json", "-o", "a.png", "--color", "x"], "--color is for cloud, mesh, plane, not for zebra"),
         (["mesh", "mesh.ply", "-o", "a.png", "--view", "1"], "--view is '1'; two angles in degrees are needed"),
         (["mesh", "mesh.ply", "-o", "a.png", "--view", "a,b"], "--view is 'a,b'; two angles"),
+        (["mesh", "mesh.ply", "-o", "a.png", "--view", "nan,0"], "--view is 'nan,0'; two angles"),
+        (["mesh", "mesh.ply", "-o", "a.png", "--view", "0,1e9"], "the second from -90 to 90"),
         (["mesh", "mesh.ply", "-o", "a.png", "--up", "w"], "w"),
+        (["cloud", "scan.ply", "-o", "a.png", "--width", "3"], "--width"),
+        (["cloud", "scan.ply", "-o", "a.png", "--dpi", "0"], "--dpi"),
+        (["plane", "mesh.ply", "-o", "a.png", "--no-edges"], "--no-edges leaves nothing of a plane to see"),
     ],
 )
 def test_wrong_options_are_wrong_usage(draw, words, complaint):

@@ -152,8 +152,10 @@ def test_every_constant_that_the_docs_name_has_the_value_that_they_say():
             said = said.replace(",", "")
             ends = values[[0, -1]] if "to" in said.split() else values
             for value in ends:
-                shown = (f"{value:g}", f"{value:.3g}", f"{value:.0f}")
-                assert any(text in said for text in shown), f"{named(path)}: {name} is {values}, not {said}"
+                shown = {f"{value:g}", f"{value:.3g}", f"{value:.0f}"}
+                assert shown & set(re.findall(r"\d[\d.]*(?:e-?\d+)?", said)), (
+                    f"{named(path)}: {name} is {values}, not {said}"
+                )
 
 
 def test_every_public_name_is_in_the_reference():

@@ -336,3 +336,48 @@ def test_what_cannot_be_drawn_is_said_and_no_file_is_left(tmp_path, draw, messag
     with pytest.raises(InputError, match=message):
         draw(tmp_path / "a.png")
     assert list(tmp_path.iterdir()) == []
+
+
+def test_values_are_shown_where_their_points_are(tmp_path):
+    """Values that grow to the right darken to the right, whichever points are in front."""
+    domes = shapes.hemisphere(1500)
+    x = domes.points[:, 0]
+    for draw, more in ((draw_cloud, {}), (draw_mesh, {"triangles": domes.triangles, "edges": False})):
+        draw(tmp_path / "a.png", points=domes.points, values=x, label="x", sheet=SMALL, **ABOVE, **more)
+        picture = image.imread(tmp_path / "a.png")[:, :, :3]
+        picture = picture[: int(0.8 * len(picture))]  # above the scale
+        is_drawn = picture.min(axis=2) < 0.95
+        tone = np.array([picture[:, k][is_drawn[:, k]].mean() for k in np.flatnonzero(is_drawn.any(axis=0))])
+        thirds = [part.mean() for part in np.array_split(tone[3:-3], 5)]
+        assert thirds == sorted(thirds, reverse=True)
+
+
+def test_a_vertex_in_no_triangle_does_not_matter(tmp_path):
+    far = np.vstack([CAP.points, [[1e6, 1e6, 0.0]]])
+    draw_mesh(tmp_path / "a.png", CAP.points, CAP.triangles, edges=False, view=(0, 90), up="z", sheet=SMALL)
+    draw_mesh(tmp_path / "b.png", far, CAP.triangles, edges=False, view=(0, 90), up="z", sheet=SMALL)
+    one, other = (image.imread(tmp_path / name)[:, :, 0] < 0.95 for name in ("a.png", "b.png"))
+    assert np.count_nonzero(one != other) < 0.01 * np.count_nonzero(one)
+
+
+def test_a_pixel_interpolates_the_place_that_it_shows():
+    raster = scene.rasterize(CAP.points, CAP.triangles, 20_000)
+    height, width = raster.is_seen.shape
+    left, right, bottom, top = raster.box
+    row, column = np.nonzero(raster.is_seen)
+    middle = np.column_stack(
+        [left + (column + 0.5) * (right - left) / width, bottom + (row + 0.5) * (top - bottom) / height]
+    )
+    assert raster.interpolated(CAP.points)[:, :2] == pytest.approx(middle, abs=1e-9)
+
+
+def test_another_scan_is_no_deviation(tmp_path):
+    other = evaluate(ARCH, FEET) + np.array([0.0, 0.0, 50.0])
+    with pytest.raises(InputError, match=r"half of the 900 points are 4\S+ or more away from the surface"):
+        draw_deviation_map(tmp_path / "a.png", ARCH, BOX, other)
+    assert not list(tmp_path.iterdir())
+
+
+def test_names_are_no_formulas(tmp_path):
+    draw_cloud(tmp_path / "a.svg", CAP.points, values=SCORES, label=r"a$b_$c $\foo$", sheet=SMALL)
+    assert r"a$b_$c $\foo$" in (tmp_path / "a.svg").read_text("utf-8")

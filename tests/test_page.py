@@ -13,6 +13,7 @@ from pointchart import shapes
 from pointchart.clock import StageClock
 from pointchart.mesh import boundary_loops, fans, half_edges
 from pointchart.page import lay_out
+from pointchart.page.histograms import quality_histograms
 from pointchart.page.pack import packed, quantized, steps
 from pointchart.page.shades import Shade, mesh_shades
 from pointchart.page.thin import thin
@@ -165,7 +166,71 @@ def test_the_arrays_come_back(opened, made):
     assert {tuple(np.roll(t, -np.argmin(t))) for t in ours.tolist()} == {
         tuple(np.roll(t, -np.argmin(t))) for t in theirs.tolist()
     }
-    assert vertex[arrays["loop"]].tolist() == result.loop.tolist()
+    loop = vertex[arrays["loop"]]
+    assert arrays["loop_sizes"] == [len(result.loop)]
+    assert any(np.array_equal(np.roll(loop, -k), result.loop) for k in range(len(loop)))
+
+
+def test_the_values_that_colour_the_mesh_come_back(opened, made):
+    points, result, _ = made
+    arrays = opened.evaluate("Object.fromEntries(Object.entries(scene.arrays).map(([k, v]) => [k, Array.from(v)]))")
+    shown = opened.evaluate("content.shades")
+    vertex = np.argsort(result.rows)[np.searchsorted(np.sort(result.rows), arrays["row"])]
+    for shade, row in zip(mesh_shades(points, result.triangles, result.uv, result.loop), shown, strict=True):
+        low, high = row["range"]
+        values = low + np.array(arrays[shade.name]) / 65535 * (high - low)
+        wanted = np.log(shade.values[vertex]) if shade.is_log else shade.values[vertex]
+        assert row["name"] == shade.name
+        assert np.abs(values - wanted).max() <= 0.51 / 65535 * (high - low)
+
+
+def test_the_readout_tells_the_numbers_of_the_point(opened, made):
+    points, result, _ = made
+    pane = opened.locator("#space").bounding_box()
+    opened.mouse.move(pane["x"] + 0.5 * pane["width"], pane["y"] + 0.5 * pane["height"])
+    opened.wait_for_timeout(60)
+    row = int(opened.get_attribute("#readout", "data-vertex"))
+    vertex = int(np.flatnonzero(result.rows == row)[0])
+    text = opened.locator("#readout").inner_text().replace("\N{MINUS SIGN}", "-")
+    numbers = r"((?:\s+-?[\d.]+(?:e-?\d+)?)+)"
+    names = "x y z", "u v", "deviation", "stretch", "spacing", "boundary score"
+    told = {name: [float(x) for x in re.search(name + numbers, text)[1].split()] for name in names}
+    assert told["x y z"] == pytest.approx(points[vertex], abs=1e-4)
+    assert told["u v"] == pytest.approx(result.uv[vertex], abs=1e-6)
+    for shade in mesh_shades(points, result.triangles, result.uv, result.loop):
+        assert told[shade.name] == pytest.approx([shade.values[vertex]], rel=2e-3, abs=1e-4)
+
+
+def test_spacing_stretch_and_score_of_a_plane_are_known():
+    sheet = 0.5 * shapes.grid(14, 11).points
+    flat = pc.reconstruct(sheet, chart=pc.uv_free_boundary)
+    _, stretch, spacing, score = mesh_shades(sheet, flat.triangles, flat.uv, flat.loop)
+    inner = np.setdiff1d(np.arange(len(sheet)), flat.loop)
+    assert stretch.values == pytest.approx(1.0, abs=1e-3)
+    assert np.median(spacing.values[inner]) == pytest.approx(0.5)
+    assert score.values[flat.loop].min() > score.values[inner].max()
+
+
+def test_histograms_of_a_regular_grid_are_known():
+    sheet = shapes.grid(14, 11).points
+    flat = pc.reconstruct(sheet)
+    angle, shape, edges, _ = quality_histograms(sheet, flat.triangles, flat.uv, np.ones(len(sheet)))
+
+    def held(histogram):
+        ends = np.linspace(histogram["low"], histogram["high"], len(histogram["counts"]) + 1)
+        return [(ends[k], ends[k + 1], n) for k, n in enumerate(histogram["counts"]) if n]
+
+    n_triangles, n_edges = 2 * 13 * 10, 13 * 11 + 14 * 10 + 13 * 10
+    (low, high, n), *rest = held(angle)
+    assert (rest, n) == ([], n_triangles)
+    assert low <= 45.0 <= high
+    (low, high, n), *rest = held(shape)
+    assert (rest, n) == ([], n_triangles)
+    assert low <= 2.0 * np.sqrt(2.0) - 2.0 <= high
+    (low, high, sides), (far, end, diagonals) = held(edges)
+    assert (sides, diagonals) == (n_edges - 130, 130)
+    assert low <= 1.0 <= high
+    assert far <= np.sqrt(2.0) <= end + 1e-9
 
 
 def test_what_comes_from_outside_is_text(opened):
@@ -194,6 +259,27 @@ def test_keys_colour_turn_and_draw_edges(opened):
     opened.wait_for_timeout(80)
     again, _ = seen(opened, "#space")
     assert np.abs(again - coloured).max() < 2
+
+
+def test_a_place_to_look_at_comes_to_the_middle_of_both_views(made, browser, tmp_path):
+    points, result, run = made
+    vertex = int(np.argmax(points[:, 2]))
+    doubt = {"points": 3, "length": 1.0, "spacings": 9.0, "at_vertex": vertex}
+    doubted = run | {"boundary": run["boundary"] | {"doubts": [doubt]}}
+    path = tmp_path / "doubt.html"
+    path.write_text(lay_out(points, result, doubted, title="a", command="").text, "utf-8")
+    page = browser.new_page(viewport={"width": 1000, "height": 800})
+    page.goto(path.as_uri())
+    page.wait_for_function("document.body.dataset.ready === 'yes'")
+    assert page.locator("#doubts").inner_text() == "1 place to look at"
+    page.click("#places button")
+    page.uncheck("#rim")
+    page.wait_for_timeout(80)
+    assert int(page.get_attribute("#readout", "data-vertex")) == result.rows[vertex]
+    for pane in ("#space", "#plane"):
+        image, _ = seen(page, pane)
+        assert ring(page, pane) == pytest.approx(np.array(image.shape[1::-1]) / 2, abs=3)
+    page.close()
 
 
 def test_the_wheel_zooms_about_the_pointer(opened):
@@ -288,7 +374,7 @@ def test_deviations_of_a_plane_are_zero_and_of_a_bump_point_outwards():
 def test_colours_reach_over_all_but_the_outermost_points(is_signed):
     values = np.random.default_rng(0).normal(size=5000)
     low, high = Shade("a", "", values, is_signed=is_signed).reach
-    assert 0.975 < ((values >= low) & (values <= high)).mean() <= 1.0
+    assert 0.955 < ((values >= low) & (values <= high)).mean() <= 1.0
     assert not is_signed or low == -high
 
 
@@ -307,9 +393,42 @@ def test_the_command_writes_a_page_and_a_failed_one_none(tmp_path, command_line)
     assert not (tmp_path / "other.ply").exists()
 
 
+@pytest.mark.parametrize("values", [np.full(9, 1e17), 3.0 + np.r_[np.zeros(8), 1e-15], np.zeros(9), np.full(9, 1e-30)])
+def test_values_that_differ_by_rounding_alone_are_one_colour(values):
+    for is_log in (False, True):
+        low, high = Shade("a", "", values, is_log=is_log).reach
+        assert len(np.histogram([low], bins=60, range=(low, high))[0]) == 60
+
+
+def test_a_regular_grid_has_a_page(made):
+    sheet = shapes.grid(40, 30).points
+    flat = pc.reconstruct(sheet)
+    assert lay_out(sheet[flat.rows], flat, made[2], title="b\udcffd.xyz", command="").text.encode()
+
+
+def test_rims_of_open_gaps_are_drawn(made, browser, tmp_path):
+    pierced = shapes.pierce(shapes.disc(1200), n_gaps=2, radius_in_spacings=3.5).points
+    result = pc.reconstruct(pierced, gaps=pc.leave_gaps_open)
+    path = tmp_path / "open.html"
+    path.write_text(lay_out(pierced[result.rows], result, made[2], title="a", command="").text, "utf-8")
+    page = browser.new_page()
+    page.goto(path.as_uri())
+    page.wait_for_function("document.body.dataset.ready === 'yes'")
+    assert page.evaluate("scene.arrays.loop_sizes.length") == 3
+    assert page.evaluate("scene.rimLength") == 2 * sum(page.evaluate("Array.from(scene.arrays.loop_sizes)"))
+    page.close()
+
+
 def test_a_page_has_to_be_html_and_no_input(tmp_path, command_line):
     scan = tmp_path / "scan.xyz"
     np.savetxt(scan, shapes.disc(300).points)
+    code, _, said = command_line("mesh", scan, "-o", tmp_path / "a.html", "--html", tmp_path / "a.html")
+    assert code == 1
+    named = tmp_path / "b.html"
+    named.write_text(scan.read_text())
+    code, _, said = command_line("mesh", named, "-o", tmp_path / "a.ply", "--html", named)
+    assert code == 1
+    assert "which would be lost" in said
     code, _, said = command_line("mesh", scan, "-o", tmp_path / "a.ply", "--html", tmp_path / "a.pdf")
     assert code == 1
     assert "the suffix '.pdf' cannot be written here; choose one of .html, .htm" in said

@@ -172,9 +172,10 @@ class _Surface:
         return uv * (back / forth) ** 0.25 if np.isfinite(back) else uv
 
     def as_large(self, uv: UV) -> UV:
-        """Scale parameters to the area of the surface, in the unit of its points."""
+        """Scale parameters to the area of the surface, in the unit of its points, about their middle."""
         e1, e2 = (uv[self.triangles[:, k]] - uv[self.triangles[:, 0]] for k in (1, 2))
-        return uv * (self.size / float(np.sqrt(0.5 * np.abs(_cross(e1, e2)).sum())))
+        scale = self.size / float(np.sqrt(0.5 * np.abs(_cross(e1, e2)).sum()))
+        return np.asarray((uv - uv.mean(axis=0)) * scale)
 
     def modes(self, uv: UV) -> tuple[Floats, Floats, Floats]:
         """Split each triangle's energy, as a function of its 6 parameters, into four directions.
@@ -256,8 +257,10 @@ class _System:
         step = self.solver(matrix, downhill[:, None])[0][:, 0]
         steepness = float(np.linalg.norm(downhill))
         residual = float(np.linalg.norm(downhill - matrix @ step)) / (steepness if steepness > 0.0 else 1.0)
+        places = step.reshape(-1, 2)
+        # Shifting all costs nothing, so the system hardly says how far: it would go anywhere, and digits with it.
         return (
-            step.reshape(-1, 2),
+            places - places.mean(axis=0),
             -float(downhill @ step),
             Solution(uv, residual, (), "direct", size, matrix.nnz),
         )

@@ -175,6 +175,8 @@ def paint_image(axes: Any, image: Floats, box: tuple[float, float, float, float]
 def style_bar(bar: Any, label: str, *, size: float) -> None:
     """Give a colour bar few ticks, a label and no frame; its colours are one image, not hundreds of boxes."""
     bar.set_label(label, color=INK, fontsize=size)
+    for axis in (bar.ax.xaxis, bar.ax.yaxis):  # names of files' properties are no TeX
+        axis.label.set_parse_math(False)
     bar.ax.tick_params(colors=INK, labelsize=size)
     bar.outline.set_visible(False)
     bar.solids.set_rasterized(True)

@@ -154,7 +154,8 @@ def rasterize(turned: Points, triangles: Triangles, pixels: int) -> Raster:
     -------
     Raster
     """
-    low, high = turned[:, :2].min(axis=0), turned[:, :2].max(axis=0)
+    used = turned[np.unique(triangles), :2]
+    low, high = used.min(axis=0), used.max(axis=0)
     sides = np.maximum(high - low, 1e-3 * (high - low).max())
     pixel = float(np.sqrt(sides.prod() / pixels))
     width, height = np.ceil((high - low) / pixel + 2.0 * MARGIN).astype(int).tolist()

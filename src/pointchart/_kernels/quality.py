@@ -32,7 +32,8 @@ def measure_shapes(points, triangles, first, last, ratios):
         i, j, k = triangles[t, 0], triangles[t, 1], triangles[t, 2]
         a, b, c = distance(points, j, k), distance(points, k, i), distance(points, i, j)
         product = a * b * c
-        ratios[t] = (b + c - a) * (c + a - b) * (a + b - c) / (product if product > 0.0 else 1.0)
+        shape = (b + c - a) * (c + a - b) * (a + b - c)
+        ratios[t] = max(shape, 0.0) / (product if product > 0.0 else 1.0)
 
 
 @njit(cache=True, nogil=True, inline="always")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -39,7 +40,7 @@ def boundary(
     """Find the boundary of a scan and write its points in order; the file can be edited and given back to mesh."""
     from .._parallel import on_threads
     from ..errors import points_called
-    from ..io import check_output, write_curves, write_loop
+    from ..io import check_output, replacing, write_curves, write_loop
     from ..picture import PICTURE_SUFFIXES, draw_boundary
     from ..survey import survey_scan
     from .choices import outer_place
@@ -58,12 +59,16 @@ def boundary(
     rows, scores = inputs.rows[survey.cloud.rows], survey.scores
     loops = [rows[candidate.loop] for candidate in survey.candidates]
     notes = []
-    if ply is not None:
-        attributes = _columns(loops, scores, inputs.rows, survey.cloud.places, len(inputs.scan.points))
-        notes = write_curves(ply, inputs.scan.points, loops, attributes=inputs.scan.attributes | attributes)
-    if picture is not None:
-        draw_boundary(picture, survey.points, scores.total, [candidate.loop for candidate in survey.candidates])
-    write_loop(out, loops[0])
+    with ExitStack() as stack:
+        # Each file is in its place only when all of them are written.
+        if ply is not None:
+            file = stack.enter_context(replacing(ply))
+            attributes = _columns(loops, scores, inputs.rows, survey.cloud.places, len(inputs.scan.points))
+            notes = write_curves(file, inputs.scan.points, loops, attributes=inputs.scan.attributes | attributes)
+        if picture is not None:
+            file = stack.enter_context(replacing(picture))
+            draw_boundary(file, survey.points, scores.total, [candidate.loop for candidate in survey.candidates])
+        write_loop(out, loops[0])
     if not quiet:
         print("\n".join([*_lines(out, survey, loops), *notes]), file=sys.stderr)
 

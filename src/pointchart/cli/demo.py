@@ -23,7 +23,7 @@ def demo(
 
     from .. import shapes
     from ..errors import FormatError
-    from ..io import check_output, write_mesh
+    from ..io import check_output, replacing, write_mesh
     from ..page import lay_out, writing_page
     from ..picture import draw_run
     from ..pipeline import reconstruct
@@ -46,10 +46,11 @@ def demo(
     options, rows = given_options(context), np.arange(len(scan))
     run = run_report(scan, rows, result, clock, options, boundary_given=False)
     page = lay_out(points, result, run, title="a simulated laser scan", command=command_line())
-    write_mesh(cloud, scan, np.empty((0, 3), np.int64))
-    with writing_page(html, page):
+    with replacing(cloud) as scan_file, replacing(picture) as picture_file, writing_page(html, page):
+        # Each file is in its place only when all of them are written.
+        write_mesh(scan_file, scan, np.empty((0, 3), np.int64))
+        draw_run(picture_file, points, result.triangles, result.uv, result.loop, view=(28.0, -8.0))
         write_mesh(mesh, points, result.triangles, uv=result.uv)
-    draw_run(picture, points, result.triangles, result.uv, result.loop, view=(28.0, -8.0))
     if not quiet:
         print("\n".join(certificate_lines(result.certificate)), file=sys.stderr)
         print(f"{mesh}: {summary(result.certificate)}, {sum(clock.seconds.values()):.1f} s", file=sys.stderr)

@@ -65,8 +65,12 @@ def figure(
     up: Annotated[
         Axis | None, typer.Option("--up", help="Axis of the file that is upwards; by default z, or y seen along z.")
     ] = None,
-    width: Annotated[float, typer.Option("--width", help="In mm: 85 is a column, 170 a page.")] = 85.0,
-    dpi: Annotated[float, typer.Option("--dpi", help="Pixels an inch of png, and of images in svg and pdf.")] = 300.0,
+    width: Annotated[
+        float, typer.Option("--width", min=20.0, max=1000.0, help="In mm: 85 is a column, 170 a page.")
+    ] = 85.0,
+    dpi: Annotated[
+        float, typer.Option("--dpi", min=50.0, max=2400.0, help="Pixels an inch of png, and of images in svg and pdf.")
+    ] = 300.0,
     transparent: Annotated[bool, typer.Option("--transparent", help="Leave out the white ground.")] = False,
     quiet: given.QuietOption = False,
 ) -> None:
@@ -85,6 +89,8 @@ def figure(
             "--up": (up is not None, IN_SPACE),
         },
     )
+    if kind is Figure.plane and edges is False and color is None:
+        raise typer.BadParameter("--no-edges leaves nothing of a plane to see; give --color, too, such as stretch")
     if kind is Figure.deviation and points is None:
         raise typer.BadParameter("deviation needs --points SCAN, the scan that the surface was fitted to")
     look: dict[str, Any] = {} if kind is Figure.plane else {"view": _angles(view), "up": up}
@@ -106,10 +112,14 @@ def _check_options(kind: Figure, given_for: dict[str, tuple[bool, tuple[Figure, 
 
 def _angles(text: str | None) -> tuple[float, float] | None:
     try:
-        turn, tilt = (None, None) if text is None else (float(word) for word in text.split(","))
+        turn, tilt = (0.0, 0.0) if text is None else (float(word) for word in text.split(","))
+        if not (abs(turn) <= 360.0 and abs(tilt) <= 90.0):
+            raise ValueError
     except ValueError:
-        raise typer.BadParameter(f"--view is '{text}'; two angles in degrees are needed, such as 30,20") from None
-    return None if turn is None or tilt is None else (turn, tilt)
+        raise typer.BadParameter(
+            f"--view is '{text}'; two angles in degrees are needed, such as 30,20, the second from -90 to 90"
+        ) from None
+    return None if text is None else (turn, tilt)
 
 
 def _draw_surface(out: Path, source: Path, points: Path | None, limit: float | None, look: dict[str, Any]) -> None:

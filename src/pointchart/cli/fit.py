@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 from contextlib import ExitStack
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -116,7 +117,7 @@ def fit(
     from ..surfacing import fit_scan
     from .choices import GAPS, amount, corner_names, fairness_weight, layout_rule, outer_place
     from .inputs import read_inputs
-    from .output import command_line, given_options
+    from .output import command_line, given_options, page_title
 
     context.with_resource(on_threads(threads))
     allowed_of, place = amount("--tolerance", tolerance, positive=True), outer_place(outer, boundary)
@@ -167,10 +168,10 @@ def fit(
         inputs.scan.points, inputs.rows, surfaced.reconstruction, clock, given_options(context), boundary_given=is_given
     )
     run["surface"] = surface_report(surfaced, points, allowed, share, unit)
-    page = None
+    page = None  # over the parameters of the surface, which the fit has corrected
     if html is not None:
-        made, off = surfaced.reconstruction, surfaced.deviation.signed
-        page = lay_out(points, made, run, title=scan.name, command=command_line(), deviation=off)
+        made, off = replace(surfaced.reconstruction, uv=surfaced.fit.uv), surfaced.deviation.signed
+        page = lay_out(points, made, run, title=page_title(scan, out), command=command_line(), deviation=off)
     shown = surfaced.fit.surface, surfaced.loops
     with ExitStack() as stack, writing_json(report, run), writing_page(html, page):
         # Each file is in its place only when all of them are written.

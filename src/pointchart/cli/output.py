@@ -2,6 +2,7 @@
 
 import shlex
 import sys
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -25,6 +26,15 @@ def given_options(context: typer.Context) -> dict[str, Any]:
     return {
         name: value if isinstance(value, int | float | None) else str(value) for name, value in context.params.items()
     }
+
+
+def page_title(scan: Path, out: Path) -> str:
+    """Return a heading that tells pages of several runs apart.
+
+    >>> page_title(Path("/data/foot/points.ply"), Path("foot.step"))
+    'foot/points.ply to foot.step'
+    """
+    return f"{Path(scan.absolute().parent.name) / scan.name} to {out.name}"
 
 
 def command_line() -> str:

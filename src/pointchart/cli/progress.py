@@ -68,4 +68,4 @@ def _warn_of_first_run() -> None:
     stats = getattr(delaunay_stars, "stats", None)  # none where compiling is turned off
     kept = f"stars.delaunay_stars-{delaunay_stars.__code__.co_firstlineno}.*.nbi"
     if stats is not None and not any(Path(stats.cache_path).glob(kept)):
-        print("pointchart: first run on this machine: compiling its kernels, once, some 30 seconds", file=sys.stderr)
+        print("pointchart: first run on this machine: compiling its kernels, once, some 35 seconds", file=sys.stderr)

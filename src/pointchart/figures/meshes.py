@@ -72,11 +72,14 @@ def draw_mesh(
     """
     sheet = Sheet() if sheet is None else sheet
     check_sheet(path, sheet)
-    cloud = check_points(points)
+    cloud = check_points(points, least=3)
     faces = _check_faces(triangles, len(cloud))
     given = None if values is None else check_values(values, len(cloud), label)
     turned = cloud @ camera(cloud, faces, view=view, up=up).T
-    panel = lay_out(sheet, turned[np.unique(faces), :2], has_bar=given is not None)
+    used = turned[np.unique(faces), :2]
+    if (used == used[0]).all():
+        raise InputError(f"all {len(used)} points of the triangles are at one place; give a mesh that has an extent")
+    panel = lay_out(sheet, used, has_bar=given is not None)
     scale = None if given is None else _shown_scale(panel, given, label)
     if len(faces) <= MOST_SHAPES if edges is None else edges:
         colors = STONE if given is None else _rgb(scale, given[faces].mean(axis=1))

@@ -21,6 +21,7 @@ from .sheet import Panel, Sheet, check_sheet, image_pixels, lay_out, round_up, s
 
 Mesh: TypeAlias = tuple[Points, Triangles, UV]
 
+ELSEWHERE = 0.1  # of the scan's diagonal: of which half the points are farther away, that surface is not its own
 MOST = 99.0  # per cent of the points whose deviation the scale holds
 
 
@@ -64,7 +65,7 @@ def draw_deviation_map(
     FormatError
         The file cannot be written.
     InputError
-        On points that are none, or a limit that is no length.
+        On points that are none or far from the surface, or a limit that is no length.
     """
     sheet = Sheet() if sheet is None else sheet
     check_sheet(path, sheet)
@@ -73,6 +74,7 @@ def draw_deviation_map(
     cloud = check_points(points)
     mesh = tessellate(surface, loops, GRID)
     signed = _deviation(surface, mesh, cloud)
+    _check_same(signed, cloud)
     within = float(np.percentile(np.abs(signed), MOST))
     rounding = 1e-12 * float(np.ptp(cloud, axis=0).max())
     reach = round_up(max(within, rounding)) if limit is None else limit
@@ -126,6 +128,15 @@ def _seen(
     axes = camera(points, triangles, view=view, up=up)
     panel = lay_out(sheet, points @ axes[:2].T, has_bar=has_bar)
     return panel, look_at_mesh(mesh, axes, axes, image_pixels(panel, sheet))
+
+
+def _check_same(signed: Floats, points: Points) -> None:
+    median, diagonal = float(np.median(np.abs(signed))), float(np.hypot.reduce(np.ptp(points, axis=0)))
+    if median > ELSEWHERE * diagonal:
+        raise InputError(
+            f"half of the {len(points)} points are {median:.3g} or more away from the surface, and the scan is only "
+            f"{diagonal:.3g} across: give the scan that the surface was fitted to, in its unit"
+        )
 
 
 def _deviation(surface: Surface, mesh: Mesh, points: Points) -> Floats:

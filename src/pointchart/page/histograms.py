@@ -36,18 +36,17 @@ def quality_histograms(points: Points, triangles: Triangles, uv: UV, spacing: Fl
     """
     pairs, lengths = edge_lengths(points, half_edges(triangles, len(points)))
     distortions = conformal_distortions(points, triangles, uv)
-    finite = np.where(np.isfinite(distortions), distortions, np.inf)
     return [
         _histogram("smallest angle", "of each triangle, in degrees", smallest_angles(points, triangles), 0.0, 60.0),
         _histogram("shape", "of triangles: 1 equilateral, 0 flat", radius_ratios(points, triangles), 0.0, 1.0),
         _histogram("edges", "length over the spacing at their ends", lengths / spacing[pairs].max(axis=1), 0.0, None),
-        _histogram("angles in the plane", "conformal distortion of triangles: 1 is none", finite, 1.0, None),
+        _histogram("angles in the plane", "conformal distortion of triangles: 1 is none", distortions, 1.0, None),
     ]
 
 
 def _histogram(title: str, meaning: str, values: Floats, low: float, high: float | None) -> dict[str, Any]:
     if high is None:
-        high = max(float(np.percentile(values, BEYOND)), low + 1.0)
-        high = high if np.isfinite(high) else low + 10.0
+        finite = values[np.isfinite(values)]
+        high = max(float(np.percentile(finite, BEYOND)), low + 1.0) if len(finite) else low + 1.0
     counts, _ = np.histogram(np.clip(values, low, high), bins=BINS, range=(low, high))
     return {"title": title, "meaning": meaning, "low": low, "high": high, "counts": counts.tolist()}

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..io import replacing
+from ..mesh import boundary_loops, half_edges
 from ..pipeline import Reconstruction
 from ..report import certificate_lines
 from ..typing import Floats, Indices, Points
@@ -88,16 +89,20 @@ def lay_out(
     -------
     Page
     """
+    title = title.encode("utf-8", "replace").decode()  # names of files may hold other bytes
     shown = thin(points, result.triangles, most)
     shades = mesh_shades(points, result.triangles, result.uv, result.loop, deviation=deviation)
+    loops = [shown.along(loop) for loop in boundary_loops(half_edges(result.triangles, len(points)))]
     low, extent = points.min(axis=0), float(np.ptp(points, axis=0).max())
     arrays: dict[str, NDArray[Any]] = {
         "position": quantized(points[shown.kept], low, extent),
         "uv": result.uv[shown.kept].astype(np.float32),
         "triangles": steps(shown.triangles.ravel()),
-        "loop": steps(shown.along(result.loop)),
+        "loop": steps(np.concatenate(loops)),
+        "loop_sizes": np.array([len(loop) for loop in loops], np.uint32),
         "row": steps(result.rows[shown.kept]),
     }
+    spacing = next(shade.values for shade in shades if shade.name == "spacing")
     described = []
     for shade in shades:
         row, arrays[shade.name] = _described(shade, shown.kept)
@@ -115,10 +120,23 @@ def lay_out(
             {"passed": line.startswith("[ok]"), "measured": line.startswith("[--]"), "text": line[5:]}
             for line in certificate_lines(result.certificate)
         ],
-        "histograms": quality_histograms(points, result.triangles, result.uv, shades[2].values),
+        "places": _places(points, run),
+        "histograms": quality_histograms(points, result.triangles, result.uv, spacing),
         "run": run,
     }
     return Page(_filled(title, content, data), len(points), len(shown.kept))
+
+
+def _places(points: Points, run: dict[str, Any]) -> list[dict[str, Any]]:
+    """List what is worth a look: where the mesh is in doubt or passes through itself, then gaps of the scan."""
+    doubts = [("long edges where the scan has no gap", bridge) for bridge in run["boundary"]["doubts"]]
+    gaps = [("a gap of the scan", bridge) for bridge in run["boundary"]["gaps"]]
+    crossings = run["quality"]["self_intersections"]["places"]
+    return [
+        *({"what": what, "is_doubt": True, "at": points[bridge["at_vertex"]].tolist()} for what, bridge in doubts),
+        *({"what": "the mesh passes through itself", "is_doubt": True, "at": place} for place in crossings),
+        *({"what": what, "is_doubt": False, "at": points[bridge["at_vertex"]].tolist()} for what, bridge in gaps),
+    ]
 
 
 def _described(shade: Shade, kept: Indices) -> tuple[dict[str, Any], NDArray[np.uint16]]:

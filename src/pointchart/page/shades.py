@@ -8,7 +8,8 @@ from ..quality import area_vectors, vertex_stretches
 from ..survey import survey_scan
 from ..typing import UV, Floats, Loop, Points, Triangles
 
-OUTERMOST = 1.0  # per cent of the points at either end, which colours do not tell apart
+SAME = 1e-9
+OUTERMOST = 2.0  # per cent of the points at either end, which colours do not tell apart
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -47,7 +48,9 @@ class Shade:
         if self.is_signed:
             high = max(abs(low), abs(high))
             low = -high
-        return (low, high) if low < high else (low - 0.5, high + 0.5)
+        # Values that differ by rounding alone are one colour.
+        room = SAME * max(abs(low), abs(high), 1e-300)
+        return (low, high) if high - low > room else (low - max(room, 0.5), high + max(room, 0.5))
 
 
 def mesh_shades(
@@ -89,11 +92,16 @@ def mesh_shades(
         Shade("deviation", meaning, deviation, is_signed=True),
         Shade(
             "stretch",
-            "of the map from the plane to space; 1 is none",
+            "of the map from the plane to space, logarithmic; 1 is none",
             vertex_stretches(points, triangles, uv),
             is_log=True,
         ),
-        Shade("spacing", "mean distance of the six nearest points", scale * near.spacing[places], is_log=True),
+        Shade(
+            "spacing",
+            "median distance to the six nearest points, logarithmic",
+            scale * near.spacing[places],
+            is_log=True,
+        ),
         Shade("boundary score", "0 inside, 1 on the boundary", survey.scores.total[places]),
     ]
 

@@ -10,7 +10,7 @@ const whole = (x) => x.toLocaleString("en");
 function digits(x) {
   if (x === null || !Number.isFinite(x)) return "∞";
   const size = Math.abs(x);
-  return (size !== 0 && (size < 1e-3 || size >= 1e6) ? x.toExponential(2) : String(Number(x.toPrecision(4)))).replace("-", "−");
+  return (size !== 0 && (size < 1e-3 || size >= 1e6) ? x.toExponential(2) : String(Number(x.toPrecision(4)))).replaceAll("-", "−");
 }
 
 function made(name, fields = {}, ...children) {
@@ -23,9 +23,9 @@ function table(rows) {
   return made("table", {}, ...rows.map((row) => made("tr", {}, ...row.map((cell) => (cell instanceof Node ? cell : made("td", { textContent: cell }))))));
 }
 
-function bars(counts, color = null) {
+function bars(counts, label, color = null) {
   const most = Math.max(...counts, 1), svg = document.createElementNS("http://www.w3.org/2000/svg", "svg");
-  svg.setAttribute("class", "bars");
+  for (const [key, value] of Object.entries({ class: "bars", role: "img", "aria-label": label })) svg.setAttribute(key, value);
   svg.setAttribute("viewBox", `0 0 ${counts.length} 100`);
   svg.setAttribute("preserveAspectRatio", "none");
   counts.forEach((count, k) => {
@@ -41,29 +41,31 @@ const ends = (...texts) => made("div", { className: "ends" }, ...texts.map((text
 
 function tell() {
   $("summary").textContent = `${whole(proof.points)} points, ${whole(proof.triangles)} triangles, boundary of ${whole(run.boundary.points)} points`;
-  const disc = proof.holes ? `certified disc with ${proof.holes} holes` : "certified disc";
+  const holes = ["", " with a hole"][proof.holes] ?? ` with ${proof.holes} holes`, disc = `certified disc${holes}`;
   const isOneToOne = proof.as_asked && proof.uv_distinct && proof.uv_positive && proof.uv_boundary_simple;
   $("verdict").textContent = (proof.as_asked ? disc : "no disc") + (isOneToOne ? ", uv one-to-one" : ", uv not one-to-one");
-  $("verdict").classList.toggle("failed", !proof.as_asked);
+  $("verdict").classList.toggle("failed", !isOneToOne);
   $("checks").append(...content.checks.map((check) => made("li", { textContent: check.text, className: check.measured ? "measured" : check.passed ? "passed" : "failed" })));
   const all = run.stages.reduce((sum, stage) => sum + stage.seconds, 0), longest = Math.max(...run.stages.map((stage) => stage.seconds));
   const rows = run.stages.map((stage) => {
     const meter = made("i");
     meter.style.width = `${(100 * stage.seconds) / longest}%`;
-    return [stage.name, made("td", { className: "meter" }, meter), `${digits(stage.seconds)} s`];
+    return [stage.name, made("td", { className: "meter" }, meter), `${stage.seconds.toFixed(2)} s`];
   });
-  $("stages").append(table([...rows, ["all", "", `${digits(all)} s`]]));
-  const gaps = run.boundary.gaps, doubts = run.boundary.doubts;
+  $("stages").append(table([...rows, ["all", "", `${all.toFixed(2)} s`]]));
+  const gaps = run.boundary.gaps;
   $("boundary").append(table([
     ["origin", run.boundary.origin],
     ["points", whole(run.boundary.points)],
     ["length", digits(run.boundary.length)],
     ["loops that were found", whole(run.boundary.loops.length)],
     ["gaps of the scan", gaps.length ? `${gaps.length}, ${proof.holes} left open` : "none"],
-    ["places to look at", whole(doubts.length + run.quality.self_intersections.count)],
-    ["points repeated, left out", `${whole(run.points.repeated)}, ${whole(run.points.left_out)}`],
+    ["points repeated", whole(run.points.repeated)],
+    ["points left out", whole(run.points.left_out)],
   ]));
-  $("histograms").append(...content.histograms.map((h) => made("figure", {}, made("figcaption", { textContent: h.title }, made("small", { textContent: h.meaning })), bars(h.counts), ends(digits(h.low), digits(h.high)))));
+  const places = content.places.filter((place) => place.is_doubt).length;
+  Object.assign($("doubts"), { hidden: places === 0, textContent: places === 1 ? "1 place to look at" : `${places} places to look at` });
+  $("histograms").append(...content.histograms.map((h) => made("figure", {}, made("figcaption", { textContent: h.title }, made("small", { textContent: h.meaning })), bars(h.counts, `${h.title}, from ${digits(h.low)} to ${digits(h.high)}`), ends(digits(h.low), digits(h.high)))));
   const q = run.quality, solve = run.solve_uv;
   $("quality").append(table([
     ["shape of triangles: least, median", `${digits(q.radius_ratio.least)}, ${digits(q.radius_ratio.median)}`],
@@ -113,6 +115,12 @@ function colorsOf(shade) {
   return colors;
 }
 
+// Numbers to a step: with so many digits that steps are told apart, and no more.
+function fine(numbers, step) {
+  const places = Math.max(0, Math.ceil(-Math.log10(step || 1)));
+  return numbers.map((x) => (places > 12 ? x.toExponential(5) : x.toFixed(places))).join("  ");
+}
+
 const css = (colors, share) => `rgb(${[0, 1, 2].map((c) => colors[4 * Math.round(255 * share) + c]).join(" ")})`;
 const shown = (shade, placed) => digits(shade.is_log ? Math.exp(placed) : placed);
 
@@ -126,7 +134,7 @@ function show(scene, arrays, name) {
   const ramp = made("div", { className: "ramp" });
   ramp.style.background = `linear-gradient(to right, ${[0, 0.25, 0.5, 0.75, 1].map((t) => css(colors, t)).join(", ")})`;
   const [first, last] = shade.reach;
-  $("legend").append(bars(shade.counts, (share) => css(colors, share)), ramp, ends(shown(shade, first), shown(shade, (first + last) / 2), shown(shade, last)), made("small", { className: "quiet", textContent: shade.meaning }));
+  $("legend").append(bars(shade.counts, `points by ${shade.name}`, (share) => css(colors, share)), ramp, ends(shown(shade, first), shown(shade, (first + last) / 2), shown(shade, last)), made("small", { className: "quiet", textContent: shade.meaning }));
 }
 
 function light(scene, arrays, vertex) {
@@ -142,11 +150,12 @@ function light(scene, arrays, vertex) {
     mark.setAttribute("cy", spot.y);
   }
   const readout = $("readout");
+  if (readout.dataset.vertex === String(vertex === null ? "" : arrays.row[vertex])) return;
   readout.dataset.vertex = vertex === null ? "" : arrays.row[vertex];
   if (vertex === null) return void (readout.textContent = "Point at the mesh or the plane: the same point lights up in both.");
   const { low, extent } = content.box, place = [0, 1, 2].map((d) => low[d] + (extent * arrays.position[3 * vertex + d]) / 65535);
-  const fine = Math.max(0, Math.ceil(4.5 - Math.log10(extent || 1)));
-  const parts = [["point", String(arrays.row[vertex])], ["x y z", place.map((x) => x.toFixed(Math.min(fine, 12))).join("  ")], ["u v", [0, 1].map((d) => arrays.uv[2 * vertex + d].toFixed(6)).join("  ")]];
+  const uv = [0, 1].map((d) => arrays.uv[2 * vertex + d]);
+  const parts = [["point", String(arrays.row[vertex])], ["x y z", fine(place, extent / 3e4)], ["u v", fine(uv, scene.plane.radius / 1e6)]];
   for (const shade of content.shades) {
     const [first, last] = shade.range;
     parts.push([shade.name, shown(shade, first + ((last - first) * arrays[shade.name][vertex]) / 65535)]);
@@ -154,10 +163,29 @@ function light(scene, arrays, vertex) {
   readout.replaceChildren(...parts.map(([name, value]) => made("span", {}, `${name} `, made("b", { textContent: value.replaceAll("-", "−") }))));
 }
 
+function nearestTo(arrays, place) {
+  const { low, extent } = content.box, at = place.map((x, d) => ((x - low[d]) / (extent || 1)) * 65535);
+  let best = 0, least = Infinity;
+  for (let v = 0; v < arrays.position.length / 3; v++) {
+    const far = at.reduce((sum, x, d) => sum + (x - arrays.position[3 * v + d]) ** 2, 0);
+    if (far < least) [best, least] = [v, far];
+  }
+  return best;
+}
+
 function handle(scene, arrays) {
   const stage = $("stage"), touches = new Map();
   let lit = null, isHeld = false, last = null, moved = 0;
   scene.drawn = () => light(scene, arrays, lit);
+  $("places").append(...content.places.map((place) => {
+    const button = made("button", { type: "button", textContent: place.what, className: place.is_doubt ? "doubt" : "" });
+    button.addEventListener("click", () => {
+      [lit, isHeld] = [nearestTo(arrays, place.at), true];
+      scene.visit(lit);
+      stage.scrollIntoView({ block: "nearest" });
+    });
+    return made("li", {}, button);
+  }));
   const paneAt = (event) => {
     const whole = stage.getBoundingClientRect(), x = event.clientX - whole.left, y = event.clientY - whole.top;
     const which = ["space", "plane"].find((name) => { const b = scene.box(name); return x >= b.x && x < b.x + b.width && y >= b.y && y < b.y + b.height; });
@@ -181,6 +209,7 @@ function handle(scene, arrays) {
     if (touches.size === 0) [stage.dataset.pane, moved] = [at.which, 0];
     touches.set(event.pointerId, at);
     stage.setPointerCapture(event.pointerId);
+    stage.focus({ preventScroll: true });
     last = middle();
   });
   stage.addEventListener("pointermove", (event) => {
@@ -231,9 +260,8 @@ function handle(scene, arrays) {
     Escape: () => { isHeld = false; light(scene, arrays, (lit = null)); },
   };
   names.forEach((name, k) => { keys[k + 1] = () => show(scene, arrays, name); });
-  document.addEventListener("keydown", (event) => {
-    const isArrow = event.key.startsWith("Arrow");
-    if (event.ctrlKey || event.metaKey || event.altKey || event.target.tagName === "SELECT" || (isArrow && document.activeElement !== stage)) return;
+  $("views").addEventListener("keydown", (event) => {
+    if (event.ctrlKey || event.metaKey || event.altKey || event.target.tagName === "SELECT") return;
     const action = keys[event.key.length === 1 ? event.key.toLowerCase() : event.key];
     if (!action) return;
     event.preventDefault();
@@ -260,10 +288,12 @@ async function begin() {
   tell();
   $("shade").append(...["plain", ...content.shades.map((shade) => shade.name)].map((name) => made("option", { value: name, textContent: name })));
   try {
+    if (!("DecompressionStream" in window)) throw new Error("this browser is too old to unpack the mesh; all else on this page is here");
     const arrays = await unpack();
     window.scene = new Scene($("canvas"), { space: $("space"), plane: $("plane") }, arrays);
     handle(window.scene, arrays);
     show(window.scene, arrays, run.surface ? "deviation" : "plain");
+    $("stage").focus({ preventScroll: true });
     document.body.dataset.ready = "yes";
   } catch (error) {
     Object.assign($("trouble"), { hidden: false, textContent: error.message });

@@ -30,6 +30,7 @@ uniform vec4 plain;
 uniform vec2 reach;
 uniform sampler2D palette;
 out vec4 color;
+const vec3 BACK = vec3(0.72, 0.45, 0.38);
 const vec3 LIGHT = vec3(-0.4472, 0.5466, 0.7081);
 void main() {
   if (mode == 0) { color = plain; return; }
@@ -39,7 +40,10 @@ void main() {
   float lit = isFlat ? 0.5 + 0.5 * dot(n, LIGHT) : max(dot(n, LIGHT), 0.0);
   vec3 base = mode == 2 ? plain.rgb : texture(palette, vec2((value - reach.x) / (reach.y - reach.x), 0.5)).rgb;
   float shine = mode == 2 ? 0.42 + 0.62 * lit : 0.62 + 0.4 * lit;
-  if (!gl_FrontFacing) shine *= 0.6;
+  if (!gl_FrontFacing) {
+    base = mode == 2 ? BACK : mix(base, BACK, 0.6);
+    shine = 0.42 + 0.62 * max(-dot(n, LIGHT), 0.0);
+  }
   color = vec4(base * shine, 1.0);
 }`;
 
@@ -62,7 +66,7 @@ class Scene {
   }
 
   _build() {
-    const gl = this.gl, { position, uv, triangles, loop } = this.arrays;
+    const gl = this.gl, { position, uv, triangles } = this.arrays;
     this.program = linked(gl);
     this.places = Object.fromEntries(["view", "turn", "isPlane", "isFlat", "nearer", "mode", "plain", "reach", "palette"].map((name) => [name, gl.getUniformLocation(this.program, name)]));
     this.mesh = gl.createVertexArray();
@@ -76,8 +80,7 @@ class Scene {
     this.shadeBuffer = attribute(gl, 3, new Uint16Array(this.count), 1, gl.UNSIGNED_SHORT, true);
     this.faceBuffer = indexBuffer(gl, triangles);
     this.edgeBuffer = indexBuffer(gl, this.edges);
-    const rim = new Uint32Array(2 * loop.length);
-    for (let k = 0; k < loop.length; k++) rim.set([loop[k], loop[(k + 1) % loop.length]], 2 * k);
+    const rim = sidesOf(this.arrays.loop, this.arrays.loop_sizes);
     this.rimBuffer = indexBuffer(gl, rim);
     this.rimLength = rim.length;
     this.palette = gl.createTexture();
@@ -88,6 +91,25 @@ class Scene {
     this.turn = this.frame.turn.slice();
     this.zoom = { space: 1, plane: 1 };
     this.shift = { space: [0, 0], plane: [0, 0] };
+    this.draw();
+  }
+
+  // Face a vertex, in the middle of both views, so near that its edges are seen.
+  visit(vertex) {
+    const ahead = Array.from(this.normals.subarray(3 * vertex, 3 * vertex + 3)), upright = this.frame.turn.slice(3, 6);
+    const right = unit(cross(Math.abs(dot(upright, ahead)) < 0.95 ? upright : this.frame.turn.slice(6, 9), ahead));
+    this.turn = [...right, ...cross(ahead, right), ...ahead];
+    for (const which of ["space", "plane"]) {
+      const here = this._point(which, vertex), { radius } = which === "space" ? this.frame : this.plane;
+      const reach = Math.max(...Array.from(this.rings(vertex), (other) => {
+        const there = this._point(which, other);
+        return Math.hypot(...[0, 1, 2].map((d) => there[d] - here[d]));
+      }));
+      this.zoom[which] = Math.min(Math.max((0.12 * radius) / (reach || 1), 1), 1e6);
+      this.shift[which] = [0, 0];
+      const spot = this.spot(which, vertex), box = this.box(which);
+      this.shift[which] = [1 - (2 * (spot.x - box.x)) / box.width, (2 * (spot.y - box.y)) / box.height - 1];
+    }
     this.draw();
   }
 
@@ -116,9 +138,7 @@ class Scene {
   matrix(which) {
     const { width, height } = this.box(which), zoom = this.zoom[which], [dx, dy] = this.shift[which];
     const { radius } = which === "space" ? this.frame : this.plane;
-    const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-const unit = (zoom * 0.94) / radius, short = Math.min(width, height);
-    const sx = (unit * short) / width, sy = (unit * short) / height;
+    const size = (0.94 * zoom * Math.min(width, height)) / radius, sx = size / width, sy = size / height;
     if (which === "plane") {
       const [cu, cv] = this.plane.center;
       return [sx, 0, 0, 0, 0, sy, 0, 0, 0, 0, 1, 0, dx - sx * cu, dy - sy * cv, 0, 1];
@@ -283,6 +303,17 @@ function pickTarget(gl) {
   }
   gl.bindFramebuffer(gl.FRAMEBUFFER, null);
   return target;
+}
+
+// The sides of loops that lie one after the other.
+function sidesOf(corners, sizes) {
+  const sides = new Uint32Array(2 * corners.length);
+  let begin = 0;
+  for (const size of sizes) {
+    for (let k = 0; k < size; k++) sides.set([corners[begin + k], corners[begin + ((k + 1) % size)]], 2 * (begin + k));
+    begin += size;
+  }
+  return sides;
 }
 
 // Each edge once, from its lower end to its upper one: sorted by both in one number, then the repeats dropped.
