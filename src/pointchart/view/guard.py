@@ -4,11 +4,11 @@ import io
 import secrets
 from collections.abc import Awaitable, Callable, Iterator
 from contextlib import contextmanager, redirect_stdout
+from dataclasses import replace
 from http import HTTPStatus
 from http.client import HTTPConnection
 from inspect import isawaitable
 from typing import Any
-from urllib.parse import parse_qs, urlsplit
 
 import viser
 import websockets.asyncio.server as sockets
@@ -25,7 +25,7 @@ KEPT_IN = {
     "X-Content-Type-Options": "nosniff",
     "Cache-Control": "no-store",
     "Content-Security-Policy": "default-src 'self' 'unsafe-inline' 'unsafe-eval' data: blob:; frame-ancestors 'none'; "
-    "connect-src 'self' data: blob: ws://127.0.0.1:{port} ws://localhost:{port}",
+    "connect-src 'self' ws://127.0.0.1:{port} ws://localhost:{port}",
 }
 
 Answer = Callable[[ServerConnection, Request], Response | Awaitable[Response | None] | None]
@@ -75,36 +75,45 @@ def stop_server(server: LocalServer) -> None:
 
 def address(server: LocalServer, token: str) -> str:
     """Return the address that opens the page."""
-    return f"http://{HOST}:{server.get_port()}/?token={token}"
+    return f"http://{HOST}:{server.get_port()}/{token}/"
 
 
-def is_welcome(path: str, headers: Headers, token: str, port: int) -> bool:
-    """Tell whether a request comes by the right name, from our own page or none, with the token.
+def path_within(path: str, headers: Headers, token: str, port: int) -> str | None:
+    """Return the path behind the token, if a request has it and comes by the right name, from our own page or none.
+
+    The token is the first part of the path: a cookie would be sent to every other server of this machine. Whoever has
+    it asks for nothing more: words behind a question mark, with which viser would fetch and run what others have
+    written, are refused.
 
     Parameters
     ----------
     path : str
-        With its query, which may hold the token; else a cookie has to.
     headers : Headers
         A foreign `Host` is a name that was made to point here; a websocket has to name its `Origin`.
     token : str
     port : int
 
+    Returns
+    -------
+    str or None
+        None for a request that is refused.
+
     Examples
     --------
-    >>> mine = Headers(Host="127.0.0.1:8000", Cookie="a=b; pointchart_8000=secret")
-    >>> is_welcome("/", mine, "secret", 8000), is_welcome("/", mine, "other", 8000)
-    (True, False)
-    >>> is_welcome("/?token=secret", Headers(Host="evil.example:8000"), "secret", 8000)
-    False
+    >>> mine = Headers(Host="127.0.0.1:8000")
+    >>> path_within("/secret/a.js", mine, "secret", 8000), path_within("/other/", mine, "secret", 8000)
+    ('/a.js', None)
+    >>> path_within("/secret/", Headers(Host="evil.example:8000"), "secret", 8000)
     """
     hosts, origins = headers.get_all("Host"), headers.get_all("Origin")
     if len(hosts) != 1 or hosts[0] not in (f"{HOST}:{port}", f"localhost:{port}"):
-        return False
+        return None
     is_socket = bool(headers.get_all("Upgrade"))
     if any(origin != f"http://{hosts[0]}" for origin in origins) or (is_socket and len(origins) != 1):
-        return False
-    return any(_same(given, token) for given in (_in_query(path), _in_cookie(headers, port)))
+        return None
+    start, given, rest = (*path.split("/", 2), "", "")[:3]
+    is_ours = secrets.compare_digest(given.encode("utf-8", "surrogateescape"), token.encode())
+    return f"/{rest}" if is_ours and start == "" and "?" not in rest else None
 
 
 @contextmanager
@@ -125,36 +134,17 @@ def _guarding(token: str) -> Iterator[None]:
 def _guard(token: str, answer: Answer | None) -> Answer:
     async def check(connection: ServerConnection, request: Request) -> Response | None:
         port = connection.local_address[1]
-        if not is_welcome(request.path, request.headers, token, port):
+        path = path_within(request.path, request.headers, token, port)
+        if path is None:
             return connection.respond(HTTPStatus.FORBIDDEN, f"{REFUSED}\n")
-        given = None if answer is None else answer(connection, request)
+        given = None if answer is None else answer(connection, replace(request, path=path))
         response = await given if isawaitable(given) else given
         if response is not None:
             for name, value in KEPT_IN.items():
                 response.headers[name] = value.format(port=port)
-            if _same(_in_query(request.path), token):
-                response.headers["Set-Cookie"] = f"{_cookie(port)}={token}; HttpOnly; SameSite=Strict; Path=/"
         return response
 
     return check
-
-
-def _same(given: str, token: str) -> bool:
-    return secrets.compare_digest(given.encode(), token.encode())
-
-
-def _in_query(path: str) -> str:
-    return parse_qs(urlsplit(path).query).get("token", [""])[0]
-
-
-def _in_cookie(headers: Headers, port: int) -> str:
-    pairs = [pair.strip().partition("=") for line in headers.get_all("Cookie") for pair in line.split(";")]
-    return next((value for name, _, value in pairs if name == _cookie(port)), "")
-
-
-def _cookie(port: int) -> str:
-    # Cookies are one jar for all ports of a host.
-    return f"pointchart_{port}"
 
 
 def _upgrade(port: int) -> dict[str, str]:
