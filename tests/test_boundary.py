@@ -560,8 +560,8 @@ def test_two_sheets_are_refused_with_the_sizes_and_a_point_of_each(apart):
         {"n_around": 64, "n_across": 7},
         {"n_around": 96, "n_across": 5, "width": 0.3},
         {"n_around": 128, "n_across": 13, "width": 0.8},
-        {"n_around": 100, "n_across": 17, "width": 1.2},
-        {"n_around": 128, "n_across": 25, "width": 1.6},
+        {"n_around": 64, "n_across": 11, "width": 1.2},
+        {"n_around": 80, "n_across": 16, "width": 1.6},
     ],
     ids=str,
 )

@@ -153,7 +153,8 @@ def test_every_constant_that_the_docs_name_has_the_value_that_they_say():
             ends = values[[0, -1]] if "to" in said.split() else values
             for value in ends:
                 shown = {f"{value:g}", f"{value:.3g}", f"{value:.0f}"}
-                assert shown & set(re.findall(r"\d[\d.]*(?:e-?\d+)?", said)), (
+                words = re.findall(r"-?\d[\d.]*(?:e-?\d+)?", said)
+                assert shown & {f"{float(word.rstrip('.')):g}" for word in words}, (
                     f"{named(path)}: {name} is {values}, not {said}"
                 )
 

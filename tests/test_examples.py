@@ -3,6 +3,7 @@ from math import pi
 from pathlib import Path
 
 import pytest
+from matplotlib import pyplot as plt
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
 
@@ -16,6 +17,13 @@ ANSWERS = {
     "paper_methods": pytest.approx(0.93, abs=0.03),
     "stage_by_stage": 1,
 }
+
+
+@pytest.fixture(autouse=True)
+def closed():
+    """Close the figures that a gallery would show."""
+    yield
+    plt.close("all")
 
 
 def run(name):

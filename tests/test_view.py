@@ -1,9 +1,13 @@
 import shlex
+import socket
+import sys
 import threading
 import time
 from _thread import interrupt_main
 from contextlib import nullcontext
+from functools import partial
 from http.client import HTTPConnection
+from unittest.mock import MagicMock
 
 import numpy as np
 import pytest
@@ -16,21 +20,31 @@ from pointchart.boundary import is_same_loop, reversed_loop
 from pointchart.cli import aside
 from pointchart.cli.view import commands
 from pointchart.io import read_loop, write_loop
-from pointchart.view import guard
+from pointchart.view import boundary_step, cloud_steps, guard, job, result_steps
 from pointchart.view.app import open_page
+from pointchart.view.around import Around
 from pointchart.view.boundary_step import CORNER, DROP, INSERT, OUTER
 from pointchart.view.cloud_steps import SHOW
 from pointchart.view.drawing import camera_of
 from pointchart.view.job import Cancelled, Job
 from pointchart.view.picking import LoopByHand, project
+from pointchart.view.step import Step
 
-RELIEF = shapes.relief(400, seed=2)
+# One process has the page and the browser open for all of them.
+pytestmark = pytest.mark.xdist_group("view")
+
+N = 200
+RELIEF = shapes.relief(N, seed=2)
 TRUE = np.asarray(RELIEF.boundary)
 MISSED, INNER = int(TRUE[10]), int(np.argmin(np.linalg.norm(RELIEF.points[:, :2], axis=1)))
 WRONG = np.where(TRUE == MISSED, INNER, TRUE)
 CROSSED = np.concatenate([TRUE[:10], reversed_loop(TRUE[10:30]), TRUE[30:]])
 HARMLESS = ("THREE.Clock", "not on your GPU")
 SECONDS = 40_000  # milliseconds that a busy machine may take
+MADE = "mesh-made.ply"
+SLEEPS = sys.executable, "-c", "import sys, time; print('stage sleep 5', file=sys.stderr, flush=True); time.sleep(600)"
+WRITES = sys.executable, "-c", "import sys; open(sys.argv[sys.argv.index('-o') + 1], 'w').write('made')"
+FAILS = sys.executable, "-c", "raise SystemExit('pointchart: it is refused')"
 
 
 @pytest.fixture(scope="module")
@@ -52,7 +66,7 @@ def page(scan_file):
 @pytest.fixture(scope="module")
 def opened(browser, page):
     """Return the page in a browser, with what it writes to its console."""
-    with browser.new_context(viewport={"width": 860, "height": 560}) as context:
+    with browser.new_context(viewport={"width": 860, "height": 560}, device_scale_factor=0.5) as context:
         shown = context.new_page()
         shown.set_default_timeout(SECONDS)
         shown.words = []
@@ -64,9 +78,17 @@ def opened(browser, page):
 
 
 @pytest.fixture
+def bare(scan_file):
+    """Return a page that no browser has opened."""
+    opened = open_page(scan_file, read_scan(scan_file), commands(), loop=WRONG)
+    yield opened
+    opened.close()
+
+
+@pytest.fixture
 def window(opened, page):
     """Return the page in a browser with the wrong loop, whatever tests ran before."""
-    page.hand = LoopByHand(len(RELIEF.points), WRONG)
+    page.hand = LoopByHand(N, WRONG)
     page.look_at("cloud")
     page.loop_changed()
     return opened
@@ -83,7 +105,26 @@ def ask(page, path, **headers):
 
 
 def token_of(page):
-    return page.address.partition("token=")[2]
+    return page.address.rstrip("/").rpartition("/")[2]
+
+
+def run_as(monkeypatch, program):
+    """Have pages run another program than pointchart."""
+    monkeypatch.setattr("pointchart.view.page.Job", partial(Job, program=program))
+
+
+def mesh_step(page):
+    return Step(page, "mesh", "Stub", result_steps.MESH, works_on=MADE, out="mesh.ply", take=lambda: None)
+
+
+def n_drawn(page):
+    """Count the corners of the polygon that is drawn: a ball for one, a closed line for more."""
+    drawn = page.server.scene.get_handle_by_name("/cloud/polygon")
+    return 0 if drawn is None else len(getattr(drawn, "points", [drawn]))
+
+
+def line_shown(window):
+    return window.locator(".command code").locator("visible=true").inner_text()
 
 
 def tab(window, name):
@@ -128,32 +169,40 @@ def until(condition):
     assert condition()
 
 
-# The door
-
-
-@pytest.mark.parametrize("query", ["", "?token=", "?token=wrong", "?tokens={}", "?token={}x"])
-def test_without_its_token_the_page_is_refused_with_a_sentence(page, query):
-    status, body, _ = ask(page, f"/{query.format(token_of(page))}")
+@pytest.mark.parametrize(
+    "path", ["/", "/wrong/", "/{}x/", "//{}/", "/?token={}", "/%2e/{}/", "//[", "/{}?a=1", "/{}/?a=1"]
+)
+def test_without_its_token_alone_the_page_is_refused_with_a_sentence(page, path):
+    status, body, _ = ask(page, path.format(token_of(page)))
     assert (status, body) == (403, f"{guard.REFUSED}\n")
 
 
-def test_the_token_opens_the_page_and_is_kept_in_a_cookie_that_opens_it_as_well(page):
-    status, body, answer = ask(page, f"/?token={token_of(page)}")
-    cookie = answer.getheader("Set-Cookie")
+def test_the_token_opens_the_page_and_no_cookie_tells_it_to_other_servers_of_this_machine(page):
+    status, body, answer = ask(page, f"/{token_of(page)}/")
     assert (status, "<html" in body) == (200, True)
-    assert {"HttpOnly", "SameSite=Strict"} <= set(cookie.split("; "))
     assert "frame-ancestors 'none'" in answer.getheader("Content-Security-Policy")
-    assert ask(page, "/", Cookie=f"other=1; {cookie.partition(';')[0]}")[0] == 200
-    assert ask(page, "/", Cookie=cookie.partition(";")[0] + "x")[0] == 403
+    assert answer.getheader("Referrer-Policy") == "no-referrer"
+    assert answer.getheader("Set-Cookie") is None
+    assert ask(page, "/", Cookie=f"token={token_of(page)}")[0] == 403
+    assert ask(page, f"/{token_of(page)}/none")[0] == 404
+    assert ask(page, f"/{token_of(page)}/..%2f..%2fetc%2fpasswd")[0] == 404
+
+
+def test_a_recording_that_someone_else_has_written_is_not_played(page):
+    """Viser plays what its address names, scripts included: an address with more than the token is refused."""
+    assert ask(page, f"/{token_of(page)}/?playbackPath=data:application/octet-stream;base64,AAAA")[0] == 403
+    policy = ask(page, f"/{token_of(page)}/")[2].getheader("Content-Security-Policy")
+    (connects,) = [part for part in policy.split("; ") if part.startswith("connect-src")]
+    assert not {"blob:", "http:", "https:", "*"} & set(connects.split())
 
 
 @pytest.mark.parametrize("host", ["evil.example", "evil.example:{}", "127.0.0.1", "127.0.0.1:1"])
 def test_another_name_for_this_machine_is_refused(page, host):
-    assert ask(page, f"/?token={token_of(page)}", Host=host.format(page.server.get_port()))[0] == 403
+    assert ask(page, f"/{token_of(page)}/", Host=host.format(page.server.get_port()))[0] == 403
 
 
 def test_another_origin_is_refused_even_with_the_token(page):
-    path = f"/?token={token_of(page)}"
+    path = f"/{token_of(page)}/"
     assert ask(page, path, Origin="http://evil.example")[0] == 403
     assert ask(page, path, Origin="null")[0] == 403
 
@@ -161,10 +210,9 @@ def test_another_origin_is_refused_even_with_the_token(page):
 @pytest.mark.parametrize("origin", ["http://evil.example", "http://localhost:{}", "https://127.0.0.1:{}", None])
 def test_a_websocket_of_another_origin_or_none_is_refused(page, origin):
     port = page.server.get_port()
-    cookie = {"Cookie": f"pointchart_{port}={token_of(page)}"}
     with (
         pytest.raises(InvalidStatus) as refused,
-        connect(f"ws://127.0.0.1:{port}", origin=origin and origin.format(port), additional_headers=cookie),
+        connect(f"ws://127.0.0.1:{port}/{token_of(page)}", origin=origin and origin.format(port)),
     ):
         pass
     assert refused.value.response.status_code == 403
@@ -173,15 +221,17 @@ def test_a_websocket_of_another_origin_or_none_is_refused(page, origin):
 def test_a_websocket_needs_the_token_and_opens_with_it(page):
     port = page.server.get_port()
     own = {"origin": f"http://127.0.0.1:{port}", "subprotocols": ["viser-v0"]}
-    with pytest.raises(InvalidStatus), connect(f"ws://127.0.0.1:{port}", **own):
-        pass
-    cookie = {"Cookie": f"pointchart_{port}={token_of(page)}"}
-    with connect(f"ws://127.0.0.1:{port}", additional_headers=cookie, **own) as opened:
+    for path in ("", "/", "/wrong"):
+        with pytest.raises(InvalidStatus), connect(f"ws://127.0.0.1:{port}{path}", **own):
+            pass
+    with connect(f"ws://127.0.0.1:{port}/{token_of(page)}", **own) as opened:
         assert opened.response.status_code == 101
 
 
 def test_the_server_listens_on_loopback_only(page):
     assert page.server.get_host() == "127.0.0.1"
+    with pytest.raises(ConnectionRefusedError):
+        socket.create_connection(("127.0.0.2", page.server.get_port()), timeout=5).close()
 
 
 def test_a_server_that_answers_without_the_token_is_stopped_at_once(monkeypatch):
@@ -190,13 +240,10 @@ def test_a_server_that_answers_without_the_token_is_stopped_at_once(monkeypatch)
         guard.start_server("secret")
 
 
-# The page in a browser
-
-
 def test_the_page_opens_with_the_six_steps_and_no_error(window):
     names = ["Cloud", "Neighbourhoods", "Boundary", "UV", "Mesh", "Surface"]
     assert window.get_by_role("tab").all_inner_texts() == names
-    window.get_by_text("400 points").first.wait_for()
+    window.get_by_text(f"{N} points").first.wait_for()
     faults = [words for words in window.words if words[0] in ("error", "warning")]
     assert [words for words in faults if not any(known in words[1] for known in HARMLESS)] == []
 
@@ -212,20 +259,51 @@ def test_a_click_shows_the_neighbourhood_of_a_point(window, page):
     window.get_by_text("--neighbors nearest").first.wait_for()
     fill(window, "Radius", "0.3")
     window.get_by_text("--neighbors nearest takes -k and no --radius").first.wait_for()
+    until(lambda: not page.server.scene.get_handle_by_name("/cloud/around"))
+    assert window.get_by_text("its 20 neighbours").count() == 0
     fill(window, "Radius", "")
     choose(window, "Neighbourhood", "(default)")
+    for word, sentence in (("3.7", "-k is '3.7'; a whole number is needed"), ("1000000000", "k is 1000000000, but of")):
+        fill(window, "k nearest", word)
+        window.get_by_text(sentence).wait_for()
+    fill(window, "k nearest", "")
+    window.get_by_text(f"a star of {star.sizes[INNER]} neighbours").wait_for()
 
 
-def test_a_crossing_loop_is_refused_in_the_words_of_the_command_line(window, page, scan_file, tmp_path, command_line):
-    write_loop(tmp_path / "loop.txt", CROSSED)
-    code, _, said = command_line("mesh", scan_file, "-o", tmp_path / "mesh.ply", "--boundary", tmp_path / "loop.txt")
+def test_of_many_requests_the_one_under_way_and_the_newest_are_drawn(monkeypatch):
+    is_begun, may_end, page = threading.Event(), threading.Event(), MagicMock(reporting=lambda *_: nullcontext())
+    page.commands.rules.return_value = None, None
+    step = cloud_steps.NeighbourhoodStep(page)
+    step.controls = MagicMock(**{"value.return_value": ""})
+
+    def slowly(points, centre, *_, **__):
+        is_begun.set()
+        may_end.wait(SECONDS / 1000)
+        return Around(centre, np.array([7]), np.array([1.0]), is_star=False, is_open=False)
+
+    monkeypatch.setattr(cloud_steps, "around_point", slowly)
+    threads = [threading.Thread(target=step.pick, args=(row, None)) for row in (1, 2, 3, 4)]
+    for asked, thread in enumerate(threads, start=1):
+        thread.start()
+        assert is_begun.wait(SECONDS / 1000)
+        until(lambda asked=asked: step._asked == asked)
+    may_end.set()
+    for thread in threads:
+        thread.join(SECONDS / 1000)
+    drawn = [call.args[0].centre for call in page.drawing.draw_around.call_args_list]
+    assert drawn == [1, 4]
+
+
+def test_a_crossing_loop_is_refused_in_the_words_of_the_library(window, page):
+    with pytest.raises(PointchartError) as reason:
+        pc.reconstruct(RELIEF.points, loop=CROSSED)
     page.hand.change(CROSSED)
     page.loop_changed()
     tab(window, "Mesh")
     press(window, "Make the mesh")
     refused = window.locator(".refused")
     refused.wait_for()
-    assert (code, said) == (1, f"pointchart: {refused.inner_text()}\n")
+    assert refused.inner_text() == str(reason.value)
     tab(window, "Boundary")
     press(window, "Undo")
     until(lambda: np.array_equal(page.hand.loop, WRONG))
@@ -246,7 +324,7 @@ def test_a_wrong_loop_is_mended_by_picking_and_the_mesh_exported_and_certified(
     tab(window, "Mesh")
     choose(window, "Domain", "square")
     press(window, "Make the mesh")
-    window.get_by_text("a certified disc: 400 points").wait_for()
+    window.get_by_text(f"a certified disc: {N} points").wait_for()
     made = download(window, "Export the mesh", tmp_path / "downloaded.ply")
     mesh = read_scan(made)
     uv = np.column_stack([mesh.attributes["u"], mesh.attributes["v"]])
@@ -254,21 +332,24 @@ def test_a_wrong_loop_is_mended_by_picking_and_the_mesh_exported_and_certified(
     assert proof.is_disc
     assert proof.is_one_to_one
     # The command line shown, run where the loop was saved, does the same.
-    line = window.locator(".command code").locator("visible=true").inner_text()
+    line = line_shown(window)
     assert line == f"pointchart mesh '{scan_file}' -o mesh.ply --boundary loop.txt --domain square"
     monkeypatch.chdir(tmp_path)
     assert command_line(*shlex.split(line)[1:])[0] == 0
     assert (tmp_path / "mesh.ply").read_bytes() == made.read_bytes()
+    choose(window, "Domain", "circle")
+    press(window, "Export the mesh")
+    window.get_by_text("the mesh there is was made by other options or another loop").first.wait_for()
 
 
 def test_the_boundary_is_found_and_points_in_a_rectangle_or_polygon_are_dropped_and_added_again(window, page):
     tab(window, "Boundary")
     press(window, "Find the boundary")
-    window.get_by_text("a loop of 63 points").wait_for()
+    window.get_by_text(f"a loop of {len(TRUE)} points").wait_for()
     until(lambda: is_same_loop(page.hand.loop, TRUE) and not page.hand.is_own)
     page.look_at("boundary scores")
     box = window.locator("canvas").first.bounding_box()
-    for what, n_gone in (("Drop inside", 20), ("Add inside", 0)):
+    for what, n_gone in (("Drop inside", len(TRUE) // 3), ("Add inside", 0)):
         window.keyboard.down("Shift")
         window.mouse.move(box["x"] + 5, box["y"] + 5)
         window.mouse.down()
@@ -283,9 +364,9 @@ def test_the_boundary_is_found_and_points_in_a_rectangle_or_polygon_are_dropped_
         assert (gone[:, 0] < 0.1).all()
     assert is_same_loop(page.hand.loop, TRUE)
     choose(window, "A click", CORNER)
-    for x, y in ((0.05, 0.95), (0.9, 0.95), (0.5, 0.5)):
+    for n_corners, (x, y) in enumerate(((0.05, 0.95), (0.9, 0.95), (0.5, 0.5)), start=1):
         window.mouse.click(box["x"] + x * box["width"], box["y"] + y * box["height"], delay=60)
-        window.wait_for_timeout(300)
+        until(lambda n=n_corners: n_drawn(page) == n)
     press(window, "Drop inside")
     until(lambda: len(page.hand.loop) < len(TRUE))
     assert RELIEF.points[np.setdiff1d(TRUE, page.hand.loop), 1].max() < -0.5
@@ -300,13 +381,20 @@ def test_a_polygon_without_corners_selects_nothing_and_says_so(window, page):
     assert np.array_equal(page.hand.loop, WRONG)
 
 
-def test_a_click_names_the_outer_loop_on_the_command_line(window, page):
+def test_a_click_names_the_outer_loop_and_no_word_stands_twice_on_the_command_line(window, page, scan_file):
     tab(window, "Boundary")
     choose(window, "A click", OUTER)
     click_point(window, page, MISSED)
     x, y, z = (f"{x:.9g}" for x in RELIEF.points[MISSED])
-    window.get_by_text(f"--outer {x},{y},{z}").locator("visible=true").wait_for()
+    start = f"pointchart boundary '{scan_file}' -o loop.txt"
+    until(lambda: line_shown(window) == f"{start} --outer {x},{y},{z}")
+    choose(window, "Component", "largest")
+    until(lambda: line_shown(window) == f"{start} --outer {x},{y},{z} --component largest")
     fill(window, "Outer loop at", "")
+    tab(window, "Mesh")
+    until(lambda: line_shown(window).endswith(" --boundary loop.txt --component largest"))
+    tab(window, "Boundary")
+    choose(window, "Component", "(default)")
     until(lambda: page.where() == [])
 
 
@@ -317,36 +405,132 @@ def test_a_loop_file_is_loaded_and_a_false_one_refused(window, page, tmp_path):
     field = window.locator("input[type=file]").first
     field.set_input_files(tmp_path / "false.txt")
     window.get_by_text("1 boundary entries name no point, the first is 4000 at position 2").wait_for()
+    (tmp_path / "my words.txt").write_text("one\n")
+    field.set_input_files(tmp_path / "my words.txt")
+    window.get_by_text("my words.txt: ").first.wait_for()
     field.set_input_files(tmp_path / "true.txt")
     until(lambda: np.array_equal(page.hand.loop, TRUE))
     assert page.hand.is_own
 
 
 def test_parameters_are_mapped_and_exported(window, page, tmp_path):
-    page.hand = LoopByHand(len(RELIEF.points))
+    page.hand = LoopByHand(N)
     tab(window, "UV")
     press(window, "Map to the plane")
-    window.get_by_text("parameters of 400 points").wait_for()
+    window.get_by_text(f"parameters of {N} points").wait_for()
     table = np.loadtxt(download(window, "Export the parameters", tmp_path / "uv.csv"), delimiter=",", skiprows=1)
     assert np.linalg.norm(table, axis=1).max() == pytest.approx(1.0)
 
 
-def test_the_surface_is_fitted_and_exported_and_a_run_is_cancelled_at_once(window, page, tmp_path):
-    page.hand = LoopByHand(len(RELIEF.points))
+def test_the_surface_is_fitted_and_exported(window, page, tmp_path):
+    page.hand = LoopByHand(N)
     tab(window, "Surface")
     fill(window, "Tolerance", "5%")
-    press(window, "Fit the surface")
-    press(window, "Cancel")
-    start = time.monotonic()
-    window.get_by_text("cancelled; nothing was changed").wait_for()
-    assert time.monotonic() - start < 3.0
-    assert not list(page.folder.glob("surface*"))
     press(window, "Fit the surface")
     window.get_by_text("B-spline surface of degree 3").wait_for()
     assert download(window, "Export the surface", tmp_path / "s.step").read_bytes().startswith(b"ISO-10303-21;")
 
 
-# Runs beside the page
+def test_a_run_is_cancelled_by_the_button(window, monkeypatch):
+    run_as(monkeypatch, SLEEPS)
+    tab(window, "Surface")
+    press(window, "Fit the surface")
+    press(window, "Cancel")
+    window.get_by_text("cancelled; run it again for a result").wait_for()
+    press(window, "Export the surface")
+    window.get_by_text("there is no surface yet; fit it first").wait_for()
+
+
+def test_a_page_whose_app_has_ended_says_so(browser, bare):
+    with browser.new_context(viewport={"width": 480, "height": 300}, device_scale_factor=0.5) as context:
+        shown = context.new_page()
+        shown.goto(bare.address)
+        shown.get_by_text("A click").wait_for(timeout=SECONDS)
+        bare.close()
+        shown.get_by_text("ended; start pointchart view again").wait_for(timeout=SECONDS)
+
+
+def test_a_result_is_exported_only_while_the_words_and_the_loop_that_made_it_stand(bare, monkeypatch):
+    step = mesh_step(bare)
+    run_as(monkeypatch, WRITES)
+    step.run()
+    assert step.made("mesh", "make it").read_text() == "made"
+    assert [path.name for path in bare.folder.iterdir()] == [MADE]
+    for change, back in (
+        (lambda: step.controls.set("--domain", "square"), lambda: step.controls.set("--domain", "circle")),
+        (lambda: bare.hand.change(CROSSED), bare.hand.undo),
+    ):
+        change()
+        with pytest.raises(InputError, match="made by other options or another loop than those that stand now; make"):
+            step.made("mesh", "make it")
+        back()
+        assert step.made("mesh", "make it").exists()
+
+
+def test_a_run_that_is_refused_leaves_no_result_of_the_run_before(bare, monkeypatch):
+    step = mesh_step(bare)
+    for program in (WRITES, FAILS):
+        run_as(monkeypatch, program)
+        step.run()
+    with pytest.raises(InputError, match="there is no mesh yet; make it first"):
+        step.made("mesh", "make it")
+    assert list(bare.folder.iterdir()) == []
+
+
+def test_a_run_cancelled_when_it_has_just_ended_well_leaves_no_result(bare, monkeypatch):
+    step, finish = mesh_step(bare), Job.run
+    run_as(monkeypatch, WRITES)
+
+    def cancelled_at_the_end(job, tell):
+        finish(job, tell)
+        raise Cancelled
+
+    monkeypatch.setattr(Job, "run", cancelled_at_the_end)
+    step.run()
+    with pytest.raises(InputError, match="there is no mesh yet"):
+        step.made("mesh", "make it")
+    assert list(bare.folder.iterdir()) == []
+
+
+def test_a_run_reads_the_loop_from_a_file_that_the_line_shown_does_not_tell_of(bare, monkeypatch):
+    step = mesh_step(bare)
+    (bare.folder / "loop.txt").write_text("as saved")
+    run_as(monkeypatch, (sys.executable, "-c", "import sys; raise SystemExit('pointchart: ' + sys.argv[6])"))
+    step.run()
+    assert ">loop.txt</div>" in step._said.content
+    assert (bare.folder / "loop.txt").read_text() == "as saved"
+
+
+def test_points_keep_their_size_when_the_cloud_gets_other_colours(bare):
+    bare.drawing.size_points(2.0)
+    size = bare.server.scene.get_handle_by_name("/cloud/points").point_size
+    bare.drawing.color_cloud(np.ones((N, 3)))
+    assert bare.server.scene.get_handle_by_name("/cloud/points").point_size == size
+
+
+def test_an_error_that_nobody_foresaw_is_shown_and_logged(bare, caplog):
+    told = []
+    with bare.reporting("mesh", told.append):
+        raise OSError(28, "No space left on device")
+    assert told == [
+        "this went wrong on the page itself (OSError: [Errno 28] No space left on device); the terminal shows where"
+    ]
+    assert "Traceback" in caplog.text
+
+
+@pytest.mark.parametrize("fails", ["app.MeshStep", "page.Drawing"])
+def test_a_page_interrupted_while_it_is_built_leaves_no_folder_and_no_server(scan_file, monkeypatch, fails):
+    def interrupt(*_):
+        raise KeyboardInterrupt
+
+    told = []
+    monkeypatch.setattr(f"pointchart.view.{fails}", interrupt)
+    with pytest.raises(KeyboardInterrupt):
+        open_page(scan_file, read_scan(scan_file), commands(), tell_close=told.append)
+    page = told[0].__self__
+    assert not page.folder.exists()
+    with pytest.raises(ConnectionRefusedError):
+        ask(page, "/")
 
 
 def test_a_run_tells_its_stages_and_what_it_says(scan_file, tmp_path):
@@ -354,25 +538,37 @@ def test_a_run_tells_its_stages_and_what_it_says(scan_file, tmp_path):
     said = Job(["boundary", str(scan_file), "-o", str(tmp_path / "loop.txt")]).run(lambda *stage: stages.append(stage))
     assert [name for name, _ in stages] == ["prepare", "neighbours", "boundary"]
     assert sorted(share for _, share in stages) == [share for _, share in stages]
-    assert said == [f"{tmp_path / 'loop.txt'}: a loop of 63 points, 6.285 long, {said[0].partition(' long, ')[2]}"]
+    assert said == [f"{tmp_path / 'loop.txt'}: {said[0].partition(': ')[2]}"]
+    assert said[0].partition(": ")[2].startswith(f"a loop of {len(TRUE)} points, ")
 
 
-def test_wrong_usage_is_told_by_its_sentence_alone(scan_file, tmp_path):
-    with pytest.raises(PointchartError, match=r"^--corners needs --domain square$"):
-        Job(["mesh", str(scan_file), "-o", str(tmp_path / "mesh.ply"), "--corners", "1,2,3,4"]).run(print)
+@pytest.mark.parametrize(
+    ("lines", "sentence"),
+    [
+        (["a note", "pointchart: the loop is short"], "the loop is short"),
+        (["Usage: ...", "Error: Invalid value: --corners needs --domain square"], "--corners needs --domain square"),
+        (["Segmentation fault"], "the run ended with status 9 and no word of why"),
+        ([], "the run ended with status 9 and no word of why"),
+    ],
+)
+def test_a_failure_is_told_by_its_sentence_alone(lines, sentence):
+    assert str(job._failure(9, lines)).partition(",")[0] == sentence
 
 
-def test_a_run_is_cancelled_before_it_computes_and_leaves_no_file(scan_file, tmp_path):
-    job = Job(["mesh", str(scan_file), "-o", str(tmp_path / "mesh.ply")])
-    threading.Timer(0.1, job.cancel).start()
-    start = time.monotonic()
+def test_a_run_is_cancelled_at_once_also_before_it_begins():
+    late, early = (Job([], program=SLEEPS) for _ in range(2))
     with pytest.raises(Cancelled):
-        job.run(print)
-    assert time.monotonic() - start < 3.0
-    assert list(tmp_path.iterdir()) == []
+        late.run(lambda *_: late.cancel())
+    early.cancel()
+    with pytest.raises(Cancelled):
+        early.run(print)
 
 
-# The command
+def test_a_run_that_is_over_cannot_be_cancelled():
+    over = Job([], program=(sys.executable, "-c", ""))
+    assert over.run(print) == []
+    over.cancel()
+    assert over.run(print) == []
 
 
 def test_what_has_to_end_ends_at_an_interrupt(monkeypatch):
@@ -400,8 +596,6 @@ def test_a_bad_scan_is_refused_before_a_server_starts(command_line, tmp_path, mo
 
 
 def test_every_control_is_an_option_of_its_command():
-    from pointchart.view import boundary_step, cloud_steps, result_steps
-
     known = commands()
     for command, labels in {
         "param": cloud_steps.METHODS + result_steps.DOMAIN,

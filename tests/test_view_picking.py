@@ -26,9 +26,6 @@ HAIR = 1e-9  # radians
 coordinates = st.floats(-8.0, 8.0, allow_nan=False).map(lambda x: round(x, 3))
 
 
-# Clicks
-
-
 def ray_through(place, camera=CAMERA):
     half = np.tan(camera.fov / 2.0) * np.array([camera.aspect, 1.0])
     return np.append((2.0 * place - 1.0) * half, 1.0) @ camera.axes
@@ -68,9 +65,6 @@ def test_points_as_large_as_they_are_drawn_are_hit_over_all_their_size():
     assert nearest_to_ray(point, [0, 0, 1.0], [0, 0, -1.0], reach=0.31) == 0
 
 
-# Polygons
-
-
 @given(arrays(float, (30, 2), elements=coordinates), arrays(float, (6, 2), elements=coordinates))
 def test_a_convex_polygon_holds_the_places_that_matplotlib_finds_in_it(places, cloud):
     from scipy.spatial import ConvexHull, QhullError
@@ -99,9 +93,6 @@ def test_points_behind_the_camera_are_in_no_polygon():
     screen = [[0, 0], [1, 0], [1, 1], [0, 1]]
     behind = project(np.array([[0.2, -0.1, 9.0], [0.2, -0.1, 0.0]]), CAMERA)
     assert inside_polygon(behind, screen).tolist() == [False, True]
-
-
-# Loops by hand
 
 
 @pytest.mark.parametrize("place", [0, 10, 40, len(RELIEF.boundary) - 1])
@@ -152,9 +143,6 @@ def test_a_loop_of_other_points_is_refused():
         nearest_of(RELIEF.points, np.empty(0, np.int64), 3)
 
 
-# Neighbourhoods of one point
-
-
 @pytest.mark.parametrize(
     ("connect", "scheme", "reach"),
     [
@@ -177,12 +165,22 @@ def test_neighbours_of_one_point_are_those_that_all_points_give(connect, scheme,
     assert one.weights.sum() == pytest.approx(1.0)
 
 
+@pytest.mark.parametrize("k", [400, 501, 10**9])
+def test_more_neighbours_than_can_be_shown_are_refused_before_any_is_looked_for(k):
+    points = RELIEF.points if k < 500 else np.tile(RELIEF.points, (3, 1))
+    with pytest.raises(InputError, match=rf"k is {k}, but of {len(points)} points at most \d+ neighbours are shown"):
+        around_point(points, 77, None, None, k=k)
+
+
+def test_a_ball_that_holds_too_many_points_is_refused_with_their_number():
+    points = np.tile(RELIEF.points, (6, 1))
+    with pytest.raises(InputError, match=r"radius 1e\+30 around point 77 holds 2400 points, and at most 2000"):
+        around_point(points, 77, None, None, radius=1e30)
+
+
 def test_too_small_a_ball_is_refused_with_the_rows_of_the_scan():
     with pytest.raises(InputError, match=r"the radius leaves points .*77"):
         around_point(RELIEF.points, 77, lambda points: ball(points, 1e-6), reciprocal_distance, radius=1e-6)
-
-
-# What is drawn
 
 
 @pytest.mark.parametrize("offset", [0.0, 5e6])

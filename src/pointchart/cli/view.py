@@ -14,8 +14,7 @@ from . import options as given
 
 if TYPE_CHECKING:
     from ..view.around import Connect
-    from ..view.command import Option
-    from ..view.page import Commands
+    from ..view.command import Commands, Option
     from ..weights import WeightScheme
 
 
@@ -43,8 +42,7 @@ def view(
 
     from ..view.app import open_page
 
-    page = open_page(scan, read, commands(), loop=loop)
-    at_interrupt.append(page.close)
+    page = open_page(scan, read, commands(), loop=loop, tell_close=at_interrupt.append)
     print(f"{page.address}\nthe page of {scan}; Ctrl-C ends it", file=sys.stderr, flush=True)
     if browser:
         import webbrowser
@@ -55,7 +53,7 @@ def view(
 
 def commands() -> Commands:
     """Return what the page knows of the command line: the options of the commands that it runs."""
-    from ..view.page import Commands
+    from ..view.command import Commands
     from . import boundary, fit, mesh, param
 
     run: dict[str, Callable[..., None]] = {

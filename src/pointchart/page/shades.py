@@ -41,7 +41,7 @@ class Shade:
     def reach(self) -> tuple[float, float]:
         """Where on that scale the colours begin and end.
 
-        >>> Shade("height", "", np.array([-1.0, 0.0, 3.0]), is_signed=True).reach[0] < -2.9
+        >>> Shade("height", "", np.array([-1.0, 0.0, 3.0]), is_signed=True).reach[0] < -2.8
         True
         """
         low, high = np.percentile(self.placed, [OUTERMOST, 100.0 - OUTERMOST]).tolist()

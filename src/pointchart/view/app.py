@@ -9,14 +9,17 @@ from ..io import Scan
 from ..typing import Loop
 from .boundary_step import CORNER, BoundaryStep
 from .cloud_steps import SHOW, NeighbourhoodStep, add_cloud
-from .page import Commands, Page
+from .command import Commands
+from .page import Page, Told
 from .picking import nearest_to_ray
 from .result_steps import MeshStep, SurfaceStep, UVStep
 
 Click = Callable[[int, viser.SceneClickEvent], object]
 
 
-def open_page(path: Path, scan: Scan, commands: Commands, *, loop: Loop | None = None) -> Page:
+def open_page(
+    path: Path, scan: Scan, commands: Commands, *, loop: Loop | None = None, tell_close: Told | None = None
+) -> Page:
     """Open the page of a scan; see `Page` for the parameters.
 
     Returns
@@ -29,7 +32,16 @@ def open_page(path: Path, scan: Scan, commands: Commands, *, loop: Loop | None =
     InputError
         If the loop is none of the scan's, or the page cannot be guarded.
     """
-    page = Page(path, scan, commands, loop)
+    page = Page(path, scan, commands, loop, tell_close)
+    try:
+        _build(page)
+    except BaseException:
+        page.close()
+        raise
+    return page
+
+
+def _build(page: Page) -> None:
     gui = page.server.gui
     click = gui.add_dropdown("A click", (SHOW,), hint="What a click on the cloud does; dragging turns it all the same.")
     tabs = gui.add_tab_group()
@@ -49,7 +61,6 @@ def open_page(path: Path, scan: Scan, commands: Commands, *, loop: Loop | None =
     click.options = (*clicks, CORNER)
     _listen(page, lambda: click.value, clicks, boundary)
     page.loop_changed()
-    return page
 
 
 def _listen(page: Page, chosen: Callable[[], str], clicks: dict[str, Click], boundary: BoundaryStep) -> None:
@@ -59,7 +70,7 @@ def _listen(page: Page, chosen: Callable[[], str], clicks: dict[str, Click], bou
     def _(event: viser.SceneClickEvent) -> None:
         if not page.shows_cloud:
             return
-        with page.editing():
+        with page.reporting("click"):
             if chosen() == CORNER:
                 boundary.set_corner(event)
                 return

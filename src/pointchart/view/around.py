@@ -5,13 +5,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..errors import points_called
+from ..errors import InputError, points_called
 from ..neighbors import Neighborhoods
 from ..typing import Indices, Points, Weights
 from ..weights import WeightScheme
 
 LEAST = 100  # points around the centre that are looked at
 ROOM = 4  # times as many as the k asked for
+MOST = 2000  # points whose neighbourhoods are found within a second or two, to show that of one
 
 Connect = Callable[[Points], Neighborhoods]
 
@@ -60,6 +61,11 @@ def around_point(
     -------
     Around
 
+    Raises
+    ------
+    InputError
+        If so many points would be looked at that it takes more than a moment.
+
     Examples
     --------
     >>> from pointchart.neighbors import nearest
@@ -68,6 +74,9 @@ def around_point(
     >>> around_point(line, 3, lambda points: nearest(points, 2), uniform, k=2).neighbors.tolist()
     [2, 1]
     """
+    if k >= len(points) or ROOM * k > MOST:
+        most = min(len(points) - 1, MOST // ROOM)
+        raise InputError(f"k is {k}, but of {len(points)} points at most {most} neighbours are shown; take a smaller k")
     rows, local = _near(points, centre, max(LEAST, ROOM * k), radius)
     with points_called(rows):
         found = connect(local)
@@ -81,6 +90,12 @@ def _near(points: Points, centre: int, least: int, radius: float) -> tuple[Indic
     """Return the distinct points near one, itself first, and where they are from there."""
     offset = points - points[centre]
     square = np.einsum("ij,ij->i", offset, offset)
+    within = np.count_nonzero(square < radius * radius)
+    if within > MOST:
+        raise InputError(
+            f"the ball of radius {radius:g} around point {centre} holds {within} points, and at most {MOST} are looked "
+            "at here; take a smaller radius"
+        )
     reach = np.partition(square, least)[least] if least < len(points) else np.inf
     rows = np.flatnonzero(square <= max(reach, radius * radius))
     rows = rows[np.argsort(square[rows], kind="stable")]

@@ -8,7 +8,7 @@ import viser
 
 from .._check import check_loop
 from ..boundary import perimeter, reversed_loop
-from ..errors import InputError
+from ..errors import InputError, PointchartError
 from ..gaps import place_of
 from ..io import read_loop, read_scan, write_loop
 from ..typing import Floats, Indices
@@ -18,7 +18,7 @@ from .picking import Camera, dropped, inserted, inside_polygon, nearest_of, proj
 from .step import Step
 from .words import said_html
 
-FOUND, LOOPS = "loop-found.txt", "loops.ply"
+FOUND, LOOPS, LOADED = "loop-found.txt", "loops.ply", "loaded.txt"
 BOUNDARY_SCORE = 0.5
 INSERT, DROP, CORNER, OUTER = (
     "inserts it in the loop",
@@ -50,7 +50,6 @@ class BoundaryStep:
         self._others: Indices = np.empty(0, np.int64)
         self._scores: Floats | None = None
         self._corners = np.empty((0, 3))
-        beside = ["--ply", str(page.folder / LOOPS)]
         self.step = Step(
             page,
             "boundary",
@@ -59,7 +58,7 @@ class BoundaryStep:
             works_on=FOUND,
             out="loop.txt",
             take=self._take,
-            beside=beside,
+            beside=(("--ply", LOOPS),),
         )
         page.where = lambda: self.step.controls.words
         self.step.controls.on_change(page.loop_changed)
@@ -81,21 +80,22 @@ class BoundaryStep:
     def set_corner(self, event: viser.SceneClickEvent) -> None:
         """Set a corner of the polygon, at the depth of the middle of the cloud."""
         origin, ray = np.asarray(event.ray_origin), np.asarray(event.ray_direction)
-        self._set_polygon(np.vstack([self._corners, origin + ray * np.linalg.norm(origin)]))
+        with self._page.editing():
+            self._set_polygon(np.vstack([self._corners, origin + ray * np.linalg.norm(origin)]))
 
     def set_rectangle(self, event: viser.SceneRectSelectEvent) -> None:
         """Make a rectangle that was dragged the polygon."""
-        camera = camera_of(event.client)
         (left, top), (right, bottom) = event.screen_min, event.screen_max
         places = np.array([[left, top], [right, top], [right, bottom], [left, bottom]])
-        self._set_polygon(_at_middle(camera, places))
+        with self._page.editing():
+            self._set_polygon(_at_middle(camera_of(event.client), places))
 
     def _take(self) -> None:
-        self._found = read_loop(self._page.folder / FOUND)
-        columns = read_scan(self._page.folder / LOOPS).attributes
-        self._others = np.flatnonzero(columns["loop"] > 1)
-        self._scores = columns["score_total"]
-        self._page.hand.begin(self._found)
+        found, columns = read_loop(self._page.folder / FOUND), read_scan(self._page.folder / LOOPS).attributes
+        with self._page.edits:
+            self._found, self._scores = found, columns["score_total"]
+            self._others = np.flatnonzero(columns["loop"] > 1)
+            self._page.hand.begin(found)
         self._page.add_view(CLOUDS[0], self._show_plain, is_next=False)
         self._page.add_view(CLOUDS[1], self._show_scores, is_next=False)
         self._page.look_at(CLOUDS[0])
@@ -113,7 +113,7 @@ class BoundaryStep:
 
     def _edit(self, what: str) -> None:
         hand = self._page.hand
-        with self._page.reporting("boundary"):
+        with self._page.editing():
             if what == UNDO:
                 hand.undo()
             elif what == REVERSE:
@@ -128,7 +128,7 @@ class BoundaryStep:
 
     def _edit_inside(self, what: str, client: viser.ClientHandle | None) -> None:
         hand = self._page.hand
-        with self._page.reporting("boundary"):
+        with self._page.editing():
             if what != CLEAR and client is not None:
                 rows = self._rows_inside(camera_of(client), hand.loop if what == LEAVE else self._likely())
                 points = self._page.scan.points
@@ -155,13 +155,15 @@ class BoundaryStep:
 
     def _insert(self, row: int, _: viser.SceneClickEvent) -> None:
         hand = self._page.hand
-        hand.change(inserted(self._page.scan.points, hand.loop, row))
-        self._page.loop_changed()
+        with self._page.editing():
+            hand.change(inserted(self._page.scan.points, hand.loop, row))
+            self._page.loop_changed()
 
     def _drop(self, row: int, _: viser.SceneClickEvent) -> None:
         hand = self._page.hand
-        hand.change(dropped(hand.loop, nearest_of(self._page.scan.points, hand.loop, row)))
-        self._page.loop_changed()
+        with self._page.editing():
+            hand.change(dropped(hand.loop, nearest_of(self._page.scan.points, hand.loop, row)))
+            self._page.loop_changed()
 
     def _name_outer(self, row: int, _: viser.SceneClickEvent) -> None:
         self.step.controls.set("--outer", place_of(self._page.scan.points, row).strip("()").replace(" ", ""))
@@ -192,10 +194,13 @@ class BoundaryStep:
 
         @load.on_upload
         def _(_: viser.GuiEvent[Any]) -> None:
-            with page.reporting("boundary"):
-                path = page.folder / "loaded.txt"
+            with page.editing():
+                path = page.folder / LOADED
                 path.write_bytes(load.value.content)
-                page.hand.change(check_loop(read_loop(path), len(page.scan.points)))
+                try:
+                    page.hand.change(check_loop(read_loop(path), len(page.scan.points)))
+                except PointchartError as failure:
+                    raise PointchartError(str(failure).replace(str(path), load.value.name)) from None
                 page.loop_changed()
 
 

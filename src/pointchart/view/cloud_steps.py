@@ -1,5 +1,7 @@
 """The first steps: the cloud, and the neighbourhood of a point that is picked."""
 
+from threading import Lock
+
 import numpy as np
 import viser
 
@@ -7,10 +9,10 @@ from ..errors import InputError
 from .around import around_point
 from .controls import Controls
 from .page import Page
-from .words import command_html, said_html
+from .words import command_html, refused_html, said_html
 
 SHOW = "shows its neighbourhood"
-NEAREST = "20"
+NEAREST = 20
 METHODS = (("--neighbors", "Neighbourhood"), ("-k", "k nearest"), ("--radius", "Radius"), ("--weights", "Weights"))
 
 
@@ -44,6 +46,7 @@ class NeighbourhoodStep:
 
     def __init__(self, page: Page) -> None:
         self._page, self._centre = page, -1
+        self._one, self._asked = Lock(), 0
         gui = page.server.gui
         gui.add_html(said_html([f"With “A click {SHOW}”, click a point; neighbours follow the controls."]))
         self.controls = Controls(page, "param", METHODS)
@@ -64,19 +67,38 @@ class NeighbourhoodStep:
     def _draw(self) -> None:
         if self._centre < 0:
             return
-        with self._page.reporting("neighbourhood"):
-            kind, k, radius, weights = (self.controls.value(flag) for flag, _ in METHODS)
-            count, reach = int(_number("-k", k or NEAREST)), _number("--radius", radius or "0")
-            connect, scheme = self._page.commands.rules(kind, k and str(count), radius, weights)
-            around = around_point(self._page.scan.points, self._centre, connect, scheme, k=count, radius=reach)
-            what = ("an open star of" if around.is_open else "a star of") if around.is_star else "its"
-            low, high = around.weights.min(), around.weights.max()
-            lines = [
-                f"point {around.centre} at {_place(self._page.scan.points[around.centre])}",
-                f"{what} {len(around.neighbors)} neighbours, weights from {low:.3g} to {high:.3g}",
-            ]
-            self._said.content = said_html(lines)
-            self._page.drawing.draw_around(around, reach or None)
+        self._asked += 1
+        number = self._asked
+        with self._one, self._page.reporting("neighbourhood", self._refuse):
+            # Whoever asked last draws what is asked for now; those who waited before have nothing to add.
+            if number == self._asked:
+                self._draw_now()
+
+    def _draw_now(self) -> None:
+        points, (kind, k, radius, weights) = self._page.scan.points, (self.controls.value(flag) for flag, _ in METHODS)
+        count = _whole("-k", k) if k else min(NEAREST, len(points) - 1)
+        reach = _number("--radius", radius) if radius else 0.0
+        connect, scheme = self._page.commands.rules(kind, k, radius, weights)
+        around = around_point(points, self._centre, connect, scheme, k=count, radius=reach)
+        what = ("an open star of" if around.is_open else "a star of") if around.is_star else "its"
+        low, high = around.weights.min(), around.weights.max()
+        lines = [
+            f"point {around.centre} at {_place(points[around.centre])}",
+            f"{what} {len(around.neighbors)} neighbours, weights from {low:.3g} to {high:.3g}",
+        ]
+        self._said.content = said_html(lines)
+        self._page.drawing.draw_around(around, reach or None)
+
+    def _refuse(self, sentence: str) -> None:
+        self._said.content = refused_html(sentence)
+        self._page.drawing.clear_around()
+
+
+def _whole(flag: str, word: str) -> int:
+    try:
+        return int(word)
+    except ValueError:
+        raise InputError(f"{flag} is '{word}'; a whole number is needed") from None
 
 
 def _number(flag: str, word: str) -> float:

@@ -3,8 +3,13 @@
 import os
 import shlex
 import subprocess
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+
+from ..weights import WeightScheme
+from .around import Connect
+
+Rules = Callable[[str, str, str, str], tuple[Connect, WeightScheme]]
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,6 +34,26 @@ class Option:
     choices: tuple[str, ...] = ()
     default: str = ""
     is_switch: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Commands:
+    """What the page knows of the command line.
+
+    Attributes
+    ----------
+    options : mapping of str to sequence of Option
+        The options of each command.
+    rules : callable
+        ``rules(neighbors, k, radius, weights)``, words all, gives the functions that they name.
+    """
+
+    options: Mapping[str, Sequence[Option]]
+    rules: Rules
+
+    def option(self, command: str, flag: str) -> Option | None:
+        """Return an option of a command, None if it has no such option."""
+        return next((option for option in self.options[command] if option.flag == flag), None)
 
 
 def given_words(values: Mapping[Option, str | bool]) -> list[str]:

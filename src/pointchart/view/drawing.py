@@ -34,7 +34,7 @@ class Drawing:
         self.drawn = thinned(len(points), MOST_POINTS)
         area = float(np.prod(np.sort(np.ptp(self.places, axis=0))[1:]))
         self.spacing = max(float(np.sqrt(area / len(self.drawn))), 1e-4)
-        self._light = shades(self.places[self.drawn])
+        self._light, self._size = shades(self.places[self.drawn]), 1.0
         self._groups = {name: self._scene.add_frame(f"/{name}", show_axes=False) for name in GROUPS}
         self.show("cloud")
         self.color_cloud(None)
@@ -62,10 +62,13 @@ class Drawing:
     def color_cloud(self, colors: Floats | None) -> None:
         """Draw the cloud in colours of all its points, (n, 3) from 0 to 1, or as of stone."""
         base = STONE if colors is None else colors[self.drawn]
-        self._cloud = self._points("/cloud/points", self.places[self.drawn], self._light[:, None] * base)
+        self._cloud = self._points(
+            "/cloud/points", self.places[self.drawn], self._light[:, None] * base, larger=self._size
+        )
 
     def size_points(self, share: float) -> None:
         """Draw the points of the cloud larger or smaller."""
+        self._size = share
         self._cloud.point_size = share * SPACING * self.spacing
 
     def draw_loop(self, loop: Loop, others: Indices) -> None:
@@ -80,7 +83,7 @@ class Drawing:
 
     def draw_around(self, around: Around, radius: float | None) -> None:
         """Draw the neighbours of a point, its links to them, darker the more they weigh, and the ball."""
-        self._clear("/cloud/around")
+        self.clear_around()
         self._scene.add_frame("/cloud/around", show_axes=False)
         centre, place = self.places[around.centre], self.places[around.neighbors]
         strength = (around.weights / around.weights.max())[:, None]
@@ -101,6 +104,10 @@ class Drawing:
             self._lines("/cloud/around/star", sides[:-1] if around.is_open else sides, LINK, 1.5)
         if radius is not None:
             self._ball("/cloud/around/ball", centre, radius * self.frame.scale, LINK, opacity=0.15)
+
+    def clear_around(self) -> None:
+        """Draw no neighbours."""
+        self._clear("/cloud/around")
 
     def draw_polygon(self, corners: Floats) -> None:
         """Draw the polygon that selects points, given its corners in space, (k, 3)."""

@@ -25,7 +25,7 @@ KEPT_IN = {
     "X-Content-Type-Options": "nosniff",
     "Cache-Control": "no-store",
     "Content-Security-Policy": "default-src 'self' 'unsafe-inline' 'unsafe-eval' data: blob:; frame-ancestors 'none'; "
-    "connect-src 'self' ws://127.0.0.1:{port} ws://localhost:{port}",
+    "connect-src 'self' data: ws://127.0.0.1:{port} ws://localhost:{port}",
 }
 
 Answer = Callable[[ServerConnection, Request], Response | Awaitable[Response | None] | None]

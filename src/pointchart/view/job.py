@@ -5,10 +5,12 @@ import subprocess
 import sys
 from collections.abc import Callable, Sequence
 from contextlib import suppress
+from threading import Lock
 
 from ..clock import STAGES
 from ..errors import PointchartError, SolveError
 
+PROGRAM = sys.executable, "-P", "-m", "pointchart"
 PATIENCE = 1.0  # seconds that a process has to end by itself
 
 
@@ -23,6 +25,8 @@ class Job:
     ----------
     words : sequence of str
         What stands behind `pointchart` on the command line.
+    program : sequence of str
+        What stands for `pointchart`.
 
     Examples
     --------
@@ -32,10 +36,11 @@ class Job:
     pointchart.errors.PointchartError: missing.ply: ...
     """
 
-    def __init__(self, words: Sequence[str]) -> None:
-        self._words = [sys.executable, "-P", "-m", "pointchart", *words]
+    def __init__(self, words: Sequence[str], *, program: Sequence[str] = PROGRAM) -> None:
+        self._words = [*program, *words]
         self._process: subprocess.Popen[str] | None = None
-        self._is_cancelled = False
+        self._is_cancelled = self._is_over = False
+        self._one = Lock()
 
     def run(self, tell: Callable[[str, int], object]) -> list[str]:
         """Run to the end.
@@ -75,6 +80,8 @@ class Job:
                     tell(name, int(share))
                 else:
                     lines.append(line)
+        with self._one:
+            self._is_over = True
         if self._is_cancelled:
             raise Cancelled
         if process.returncode:
@@ -82,8 +89,11 @@ class Job:
         return lines
 
     def cancel(self) -> None:
-        """End the run: within a second, leaving no file behind."""
-        self._is_cancelled = True
+        """End the run within a second or so, unless it is over: then its result stands."""
+        with self._one:
+            if self._is_over:
+                return
+            self._is_cancelled = True
         if self._process is not None:
             self._process.terminate()
             with suppress(subprocess.TimeoutExpired):

@@ -1,14 +1,15 @@
 """The page: its scan, its loop, one job at a time, and what every step shares."""
 
+import logging
 import os
 import secrets
 import shutil
 import tempfile
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
-from dataclasses import dataclass
+import time
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
-from threading import Lock
+from threading import Lock, RLock
 from typing import Any
 
 import viser
@@ -16,40 +17,23 @@ import viser
 from ..errors import InputError, PointchartError
 from ..io import Scan, write_loop
 from ..typing import Loop
-from ..weights import WeightScheme
-from .around import Connect
-from .command import Option, shell_line
+from .command import Commands, shell_line
 from .drawing import Drawing
 from .guard import address, start_server, stop_server
 from .job import Cancelled, Job
 from .picking import LoopByHand
 
+LOG = logging.getLogger(__name__)
 BRAND = (38, 99, 140)
 WIDTH = 440  # pixels of the panel
 CLOUDS = "cloud", "boundary scores"  # what shows points that can be clicked
+LOOP_FILE = "loop.txt"
+RUN = "run"  # folder of the files of a run, which are taken out of it when it has ended well
+ENDED = "**ended**; start pointchart view again"
+LAST = 0.2  # seconds in which the last words reach the browser
 
-Options = Mapping[str, Sequence[Option]]
-Rules = Callable[[str, str, str, str], tuple[Connect, WeightScheme]]
-
-
-@dataclass(frozen=True, slots=True)
-class Commands:
-    """What the page knows of the command line.
-
-    Attributes
-    ----------
-    options : mapping of str to sequence of Option
-        The options of each command.
-    rules : callable
-        ``rules(neighbors, k, radius, weights)``, words all, gives the functions that they name.
-    """
-
-    options: Options
-    rules: Rules
-
-    def option(self, command: str, flag: str) -> Option | None:
-        """Return an option of a command, None if it has no such option."""
-        return next((option for option in self.options[command] if option.flag == flag), None)
+Told = Callable[[Callable[[], None]], object]
+Made = tuple[list[str], bytes]  # the words of a run, and the user's own loop if it takes one
 
 
 class Page:
@@ -64,21 +48,40 @@ class Page:
     commands : Commands
     loop : (b,) int array, optional
         The user's own boundary to begin with.
+    tell_close : callable, optional
+        Called with `close` as soon as there is something to close.
+
+    Attributes
+    ----------
+    edits : RLock
+        Held by whatever changes the loop, its polygon, or reads them to run a command.
     """
 
-    def __init__(self, path: Path, scan: Scan, commands: Commands, loop: Loop | None = None) -> None:
+    def __init__(
+        self, path: Path, scan: Scan, commands: Commands, loop: Loop | None = None, tell_close: Told | None = None
+    ) -> None:
         self.path, self.scan, self.commands = path, scan, commands
         self.hand = LoopByHand(len(scan.points), loop)
         self._seen = self._stamp()
         self._token = secrets.token_urlsafe(32)
-        self.server = start_server(self._token)
-        self.folder = Path(tempfile.mkdtemp(prefix="pointchart-"))
         self._job: Job | None = None
-        self._one, self._edits = Lock(), Lock()
+        self._one, self.edits = Lock(), RLock()
         self.where: Callable[[], list[str]] = list  # words that say what the boundary is, of a step that is built later
         self.on_loop: list[Callable[[], None]] = []
-        self.drawing = Drawing(self.server, scan.points)
-        self._build_head()
+        self._is_ended, self._ending = False, ExitStack()
+        self.folder = Path(tempfile.mkdtemp(prefix="pointchart-"))
+        self._ending.callback(shutil.rmtree, self.folder, ignore_errors=True)
+        if tell_close is not None:
+            tell_close(self.close)
+        try:
+            self.server = start_server(self._token)
+            self._ending.callback(stop_server, self.server)
+            self.drawing = Drawing(self.server, scan.points)
+            self._build_head()
+        except BaseException:
+            self.close()
+            raise
+        self._ending.callback(self._say_ended)
 
     @property
     def address(self) -> str:
@@ -86,10 +89,10 @@ class Page:
         return address(self.server, self._token)
 
     def close(self) -> None:
-        """End the job that runs, the server, and remove the files between steps."""
+        """End the job that runs, say so, end the server, and remove the files between steps."""
+        self._is_ended = True
         self.cancel()
-        stop_server(self.server)
-        shutil.rmtree(self.folder, ignore_errors=True)
+        self._ending.close()
 
     def _build_head(self) -> None:
         gui = self.server.gui
@@ -124,10 +127,11 @@ class Page:
 
     def loop_changed(self) -> None:
         """Draw the loop again, and write the command lines again."""
-        for tell in self.on_loop:
-            tell()
+        with self.edits:
+            for tell in self.on_loop:
+                tell()
 
-    def words(self, command: str, out: str, own: Sequence[str], *, loop_file: str = "loop.txt") -> list[str]:
+    def words(self, command: str, out: str, own: Sequence[str], *, loop_file: str = LOOP_FILE) -> list[str]:
         """Return the words of a command on this scan, which name the boundary as it is now."""
         words = [command, str(self.path), "-o", out]
         takes_loop = self.commands.option(command, "--boundary") is not None
@@ -135,7 +139,7 @@ class Page:
             words += ["--boundary", loop_file]
         given = self.where()
         for flag, word in zip(given[::2], given[1::2], strict=True):
-            is_moot = flag == "--outer" and takes_loop and self.hand.is_own
+            is_moot = flag in own or (flag == "--outer" and takes_loop and self.hand.is_own)
             if self.commands.option(command, flag) is not None and not is_moot:
                 words += [flag, word]
         return words + list(own)
@@ -144,8 +148,28 @@ class Page:
         """Return the command line that a step amounts to."""
         return shell_line(["pointchart", *self.words(command, out, own)])
 
-    def run(self, command: str, out: str, own: Sequence[str]) -> list[str]:
-        """Run a command on this scan into the folder between steps; return what it said.
+    def now(self, command: str, own: Sequence[str]) -> Made:
+        """Return what a run would be made by now."""
+        with self.edits:
+            words = self.words(command, "", own)
+            return words, self.hand.loop.tobytes() if "--boundary" in words else b""
+
+    @contextmanager
+    def running(
+        self, command: str, out: str, own: Sequence[str], *, beside: Sequence[tuple[str, str]] = ()
+    ) -> Iterator[tuple[list[str], Made]]:
+        """Run a command on this scan into the folder between steps; no other runs before the body has ended.
+
+        Parameters
+        ----------
+        command, out, own
+            As for `words`.
+        beside : sequence of (flag, name)
+            Files that are written as well.
+
+        Yields
+        ------
+        What it said, and what the files are made by. They are there only if the run has ended well.
 
         Raises
         ------
@@ -153,30 +177,49 @@ class Page:
             With the sentence of the command line.
         Cancelled
         """
-        with self._alone(command):
+        names, folder = [out, *(name for _, name in beside)], self.folder / RUN
+        with self._alone():
+            for name in names:
+                (self.folder / name).unlink(missing_ok=True)
             self._check_unchanged()
-            loop_file = self.folder / "loop.txt"
-            if self.hand.is_own:
-                write_loop(loop_file, self.hand.loop)
-            words = self.words(command, str(self.folder / out), own, loop_file=str(loop_file))
-            self._job = Job(words)
+            folder.mkdir(exist_ok=True)
             try:
-                return [
-                    self.plain(line) for line in self._job.run(lambda name, share: self._tell(command, name, share))
-                ]
-            except PointchartError as failure:
-                raise PointchartError(self.plain(str(failure))) from None
+                with self.edits:
+                    made_by = self.now(command, own)
+                    if self.hand.is_own:
+                        write_loop(folder / LOOP_FILE, self.hand.loop)
+                    aside = [word for flag, name in beside for word in (flag, str(folder / name))]
+                    words = self.words(command, str(folder / out), [*own, *aside], loop_file=str(folder / LOOP_FILE))
+                lines = self._finish(Job(words), command)
+                for name in names:
+                    (folder / name).replace(self.folder / name)
             finally:
-                self._job = None
+                shutil.rmtree(folder, ignore_errors=True)
+            yield [self.plain(line) for line in lines], made_by
+
+    def _finish(self, job: Job, command: str) -> list[str]:
+        self._job = job
+        try:
+            if self._is_ended:
+                raise Cancelled
+            self._tell(command, "starting", 0)
+            self._show_progress(True)
+            return job.run(lambda name, share: self._tell(command, name, share))
+        finally:
+            self._show_progress(False)
+            self._job = None
 
     def plain(self, text: str) -> str:
         """Leave the folder between steps out of a text: its files have the names that the user gives them."""
-        return text.replace(f"{self.folder}{os.sep}", "")
+        for folder in (self.folder / RUN, self.folder):
+            text = text.replace(f"{folder}{os.sep}", "")
+        return text
 
     def cancel(self) -> None:
         """End the job that runs, if one does."""
-        if self._job is not None:
-            self._job.cancel()
+        job = self._job
+        if job is not None:
+            job.cancel()
 
     def send(self, event: viser.GuiEvent[Any], name: str, write: Callable[[Path], object]) -> None:
         """Write a file in the folder between steps, and have the browser that asks for it download it."""
@@ -200,17 +243,26 @@ class Page:
         """Show errors of the body as the sentences that they are: where `tell` puts them, or in the corner."""
         try:
             yield
-        except (Cancelled, PointchartError) as reason:
-            sentence = "cancelled; nothing was changed" if isinstance(reason, Cancelled) else self.plain(str(reason))
-            if tell is None:
-                self.notify(title, sentence)
-            else:
-                tell(sentence)
+            return
+        except Cancelled:
+            sentence = "cancelled; run it again for a result"
+        except PointchartError as reason:
+            sentence = self.plain(str(reason))
+        except Exception as reason:
+            # Whoever calls back drops what is raised, and the user would wait for ever.
+            LOG.exception("%s", title)
+            sentence = self.plain(
+                f"this went wrong on the page itself ({type(reason).__name__}: {reason}); the terminal shows where"
+            )
+        if tell is None:
+            self.notify(title, sentence)
+        else:
+            tell(sentence)
 
     @contextmanager
     def editing(self) -> Iterator[None]:
-        """Let clicks change the page one after the other."""
-        with self._edits, self.reporting("click"):
+        """Let changes of the loop and its polygon come one after the other, and show their errors."""
+        with self.edits, self.reporting("boundary"):
             yield
 
     def darken(self, is_dark: bool) -> None:
@@ -220,15 +272,12 @@ class Page:
         )
 
     @contextmanager
-    def _alone(self, command: str) -> Iterator[None]:
+    def _alone(self) -> Iterator[None]:
         if not self._one.acquire(blocking=False):
             raise InputError("another step is running; wait for its end, or cancel it")
         try:
-            self._tell(command, "starting", 0)
-            self._show_progress(True)
             yield
         finally:
-            self._show_progress(False)
             self._one.release()
 
     def _tell(self, command: str, stage: str, share: int) -> None:
@@ -236,7 +285,14 @@ class Page:
         self._bar.value = float(share) if stage == "starting" else max(float(share), self._bar.value)
 
     def _show_progress(self, is_shown: bool) -> None:
-        self._status.visible = self._bar.visible = self._stop.visible = is_shown
+        self._bar.visible = self._stop.visible = is_shown
+        self._status.visible = is_shown or self._is_ended
+
+    def _say_ended(self) -> None:
+        self._status.content = ENDED
+        self._show_progress(False)
+        self.server.flush()
+        time.sleep(LAST)
 
     def _stamp(self) -> tuple[int, int]:
         seen = self.path.stat()

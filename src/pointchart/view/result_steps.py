@@ -5,7 +5,6 @@ from pathlib import Path
 
 import numpy as np
 
-from ..errors import InputError
 from ..fit import tessellate
 from ..io import MESH_SUFFIXES, UV_SUFFIXES, Scan, read_scan, write_mesh, write_uv
 from ..surface_io import CAD_SUFFIXES, read_surface_json, write_cad
@@ -13,6 +12,7 @@ from ..typing import UV
 from .controls import Controls
 from .page import Page
 from .step import Step, add_export
+from .words import said_html
 
 UV_FILE, MESH_FILE, SURFACE_FILE = "uv-found.ply", "mesh-made.ply", "surface-fitted.json"
 SURFACE_SUFFIXES = (*CAD_SUFFIXES, ".json", *MESH_SUFFIXES)
@@ -33,6 +33,8 @@ SURFACE = (
     ("--best-effort", "Best effort"),
 )
 
+ONE_PART = "UV takes a scan in one part; where there are several, use Mesh with the component largest, or cut the scan."
+
 
 class UVStep:
     """The paper's parameters in the tab that is open: of the neighbourhoods chosen in the step before.
@@ -46,6 +48,7 @@ class UVStep:
 
     def __init__(self, page: Page, neighbourhoods: Controls) -> None:
         self._page = page
+        page.server.gui.add_html(said_html([ONE_PART]))
         self._step = Step(
             page,
             "param",
@@ -65,7 +68,7 @@ class UVStep:
         page.add_view("parameters (uv)", lambda: page.drawing.show("plane"))
 
     def _write(self, path: Path) -> None:
-        read = read_scan(_made(self._page, UV_FILE, "parameters", "map to the plane"))
+        read = read_scan(self._step.made("parameters", "map to the plane"))
         write_uv(path, _uv(read), points=read.points, attributes=_without(read, "u", "v"))
 
 
@@ -89,7 +92,7 @@ class MeshStep:
         page.add_view("mesh", lambda: page.drawing.show("mesh"))
 
     def _write(self, path: Path) -> None:
-        made = _made(self._page, MESH_FILE, "mesh", "make it")
+        made = self._step.made("mesh", "make it")
         if path.suffix == made.suffix:
             shutil.copyfile(made, path)
             return
@@ -123,7 +126,7 @@ class SurfaceStep:
         page.add_view("surface", lambda: page.drawing.show("surface"))
 
     def _write(self, path: Path) -> None:
-        made = _made(self._page, SURFACE_FILE, "surface", "fit it")
+        made = self._step.made("surface", "fit it")
         surface, loops, unit = read_surface_json(made)
         if path.suffix in CAD_SUFFIXES:
             write_cad(path, surface, loops, unit=unit, name=path.stem)
@@ -132,13 +135,6 @@ class SurfaceStep:
         else:
             points, triangles, uv = tessellate(surface, loops, TESSELLATED)
             write_mesh(path, points, triangles, uv=uv)
-
-
-def _made(page: Page, name: str, what: str, remedy: str) -> Path:
-    path = page.folder / name
-    if not path.exists():
-        raise InputError(f"there is no {what} yet; {remedy} first")
-    return path
 
 
 def _uv(read: Scan) -> UV:

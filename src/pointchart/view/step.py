@@ -6,9 +6,10 @@ from typing import Any
 
 import viser
 
+from ..errors import InputError
 from .controls import Controls
-from .page import Page
-from .words import command_html, refused_html, said_html
+from .page import Made, Page
+from .words import command_html, refused_html, said_html, shortened
 
 
 class Step:
@@ -31,8 +32,8 @@ class Step:
         Called when a run has ended well.
     also : Controls, optional
         Of another step, whose words are given as well.
-    beside : sequence of str
-        Words of the run only: files beside, for the page to draw.
+    beside : sequence of (flag, name)
+        Files that the run writes as well, for the page to draw.
     """
 
     def __init__(
@@ -46,10 +47,11 @@ class Step:
         out: str,
         take: Callable[[], object],
         also: Controls | None = None,
-        beside: Sequence[str] = (),
+        beside: Sequence[tuple[str, str]] = (),
     ) -> None:
         self._page, self._command, self._works_on, self._out = page, command, works_on, out
         self._take, self._also, self._beside = take, also, beside
+        self._made_by: Made | None = None
         self.controls = Controls(page, command, labels)
         button = page.server.gui.add_button(title, color="blue", icon=viser.Icon.PLAYER_PLAY)
         button.on_click(lambda _: self.run())
@@ -79,12 +81,32 @@ class Step:
 
     def run(self) -> None:
         """Run the command, and show what it said or why it stopped."""
-        with self._page.reporting(self._command, self._refuse):
-            lines = self._page.run(self._command, self._works_on, [*self.words, *self._beside])
+        with (
+            self._page.reporting(self._command, self._refuse),
+            self._page.running(self._command, self._works_on, self.words, beside=self._beside) as (lines, made_by),
+        ):
+            self._made_by = made_by
             self._take()
-            self._said.content = said_html(
-                [line.replace(self._works_on, self._out) for line in lines if not line.startswith("pointchart: ")]
+            told = [line.replace(self._works_on, self._out) for line in lines if not line.startswith("pointchart: ")]
+            self._said.content = said_html(shortened(told))
+
+    def made(self, what: str, remedy: str) -> Path:
+        """Return the file of the last run.
+
+        Raises
+        ------
+        InputError
+            If there is none, or other words or another loop stand now than those that made it.
+        """
+        path = self._page.folder / self._works_on
+        if self._made_by is None or not path.exists():
+            raise InputError(f"there is no {what} yet; {remedy} first")
+        if self._made_by != self._page.now(self._command, self.words):
+            raise InputError(
+                f"the {what} there is was made by other options or another loop than those that stand now; {remedy} "
+                "again first"
             )
+        return path
 
     def _refuse(self, sentence: str) -> None:
         self._said.content = refused_html(sentence.replace(self._works_on, self._out))

@@ -1,10 +1,12 @@
 """Text of the page: a command line to copy, what a command said, and why it stopped."""
 
+import re
 from collections.abc import Sequence
 from html import escape
 
 BOX = "margin:.4em .75em;border-radius:4px;font-size:.85em;line-height:1.45;overflow-wrap:anywhere"
 FRAMED = f"{BOX};padding:.5em .7em"
+OTHER_LOOP = re.compile(r"another loop of \d+ points?, (\S+) long")
 MARKS = {"[ok] ": ("✓", "#2f9e5b"), "[!!] ": ("✗", "#d0432c"), "[--] ": ("·", "inherit")}
 
 
@@ -40,6 +42,21 @@ def said_html(lines: Sequence[str]) -> str:
         sign = f'<span style="color:{color};font-weight:700;display:inline-block;width:1.2em">{mark}</span>'
         rows.append(f"<div>{sign if mark else ''}{escape(text)}</div>")
     return f'<div class="said" style="{BOX}">{"".join(rows)}</div>' if rows else ""
+
+
+def shortened(lines: Sequence[str], most: int = 5) -> list[str]:
+    """Leave the longest of the other loops that were found, and count the rest.
+
+    Examples
+    --------
+    >>> shortened([f"another loop of 9 points, {k} long" for k in (3, 1, 40)], most=2)
+    ['another loop of 9 points, 40 long', 'another loop of 9 points, 3 long', '1 more']
+    """
+    found = {line: OTHER_LOOP.match(line) for line in lines}
+    others = sorted((line for line in lines if found[line]), key=lambda line: -float((found[line] or "0")[1]))
+    if len(others) <= most:
+        return list(lines)
+    return [line for line in lines if not found[line]] + others[:most] + [f"{len(others) - most} more"]
 
 
 def refused_html(sentence: str) -> str:
