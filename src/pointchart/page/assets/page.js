@@ -242,6 +242,8 @@ function handle(scene, arrays) {
     light(scene, arrays, lit);
   };
   for (const kind of ["pointerup", "pointercancel"]) stage.addEventListener(kind, release);
+  // Keys follow the pointer, unless something else has them.
+  stage.addEventListener("pointerenter", () => { if (document.activeElement === document.body) stage.focus({ preventScroll: true }); });
   stage.addEventListener("pointerleave", () => { if (!isHeld && !touches.size) light(scene, arrays, (lit = null)); });
   stage.addEventListener("contextmenu", (event) => event.preventDefault());
   stage.addEventListener("wheel", (event) => {
@@ -293,7 +295,6 @@ async function begin() {
     window.scene = new Scene($("canvas"), { space: $("space"), plane: $("plane") }, arrays);
     handle(window.scene, arrays);
     show(window.scene, arrays, run.surface ? "deviation" : "plain");
-    $("stage").focus({ preventScroll: true });
     document.body.dataset.ready = "yes";
   } catch (error) {
     Object.assign($("trouble"), { hidden: false, textContent: error.message });
