@@ -1,5 +1,7 @@
 """Measures of meshes and maps, one function each."""
 
+from collections.abc import Callable
+
 import numpy as np
 
 from ._kernels.quality import measure_areas, measure_plane_areas, measure_shapes, measure_stretches
@@ -52,9 +54,7 @@ def areas(points: Points, triangles: Triangles) -> Floats:
     >>> areas(np.array([[0.0, 0, 0], [2, 0, 0], [0, 1, 0]]), np.array([[0, 1, 2]]))
     array([1.])
     """
-    area = np.empty(len(triangles))
-    over_ranges(lambda first, last: measure_areas(points, triangles, first, last, area), len(triangles))
-    return area
+    return _of_each(triangles, measure_areas, points)
 
 
 def plane_areas(uv: UV, triangles: Triangles) -> Floats:
@@ -66,9 +66,7 @@ def plane_areas(uv: UV, triangles: Triangles) -> Floats:
     >>> plane_areas(np.array([[0.0, 0], [2, 0], [0, 1]]), np.array([[0, 1, 2], [0, 2, 1]]))
     array([ 1., -1.])
     """
-    area = np.empty(len(triangles))
-    over_ranges(lambda first, last: measure_plane_areas(uv, triangles, first, last, area), len(triangles))
-    return area
+    return _of_each(triangles, measure_plane_areas, uv)
 
 
 def dihedral_angles(points: Points, triangles: Triangles, edges: HalfEdges) -> Floats:
@@ -98,9 +96,7 @@ def radius_ratios(points: Points, triangles: Triangles) -> Floats:
     >>> radius_ratios(np.array([[0.0, 0, 0], [1, 0, 0], [0.5, 0.75**0.5, 0]]), np.array([[0, 1, 2]])).round(12)
     array([1.])
     """
-    ratios = np.empty(len(triangles))
-    over_ranges(lambda first, last: measure_shapes(points, triangles, first, last, ratios), len(triangles))
-    return ratios
+    return _of_each(triangles, measure_shapes, points)
 
 
 def smallest_angles(points: Points, triangles: Triangles) -> Floats:
@@ -285,3 +281,10 @@ def least_distance(uv: UV) -> float:
     """
     places = np.column_stack([uv, np.zeros(len(uv))])[morton_order(uv)]
     return float(np.linalg.norm(places[BoxTree(places).nearest(1)[:, 0]] - places, axis=1).min())
+
+
+def _of_each(triangles: Triangles, measure: Callable[..., None], places: Floats) -> Floats:
+    """Measure triangles by a kernel that writes one number for each, on every core."""
+    measured = np.empty(len(triangles))
+    over_ranges(lambda first, last: measure(places, triangles, first, last, measured), len(triangles))
+    return measured

@@ -11,7 +11,7 @@ from ..io.source import AnyPath
 from ..picture import INK, MOST_SHAPES, save
 from ..typing import Floats, Points
 from .camera import camera
-from .sheet import Sheet, check_sheet, lay_out, sequential, show_scale
+from .sheet import COLUMN, Sheet, check_sheet, lay_out, sequential, show_scale
 
 FARTHEST = np.array([0.73, 0.77, 0.78])
 SHALLOW = 0.1  # depth over width of a cloud whose tones differ by all they can
@@ -26,7 +26,7 @@ def draw_cloud(
     label: str = "value",
     view: tuple[float, float] | None = None,
     up: str | None = None,
-    sheet: Sheet | None = None,
+    sheet: Sheet = COLUMN,
 ) -> None:
     """Draw a point cloud: one dot a point, near ones dark, or by a value of each point.
 
@@ -51,7 +51,6 @@ def draw_cloud(
     InputError
         On fewer than four points, not-a-number, or other than one value a point.
     """
-    sheet = Sheet() if sheet is None else sheet
     check_sheet(path, sheet)
     cloud = check_points(points)
     given = None if values is None else check_values(values, len(cloud), label)

@@ -25,7 +25,7 @@ from ..scene import rasterize, spread
 from ..typing import UV, Floats, Points, Triangles
 from .camera import camera
 from .clouds import check_values
-from .sheet import Panel, Sheet, check_sheet, image_pixels, lay_out, sequential, show_scale
+from .sheet import COLUMN, Panel, Sheet, check_sheet, image_pixels, lay_out, sequential, show_scale
 
 LINES = 0.05, 0.05, 0.35  # width in edges of the figure; at least and at most in points (1/72 inch)
 LINE_TINT = 0.55  # brightness of an edge over that of its triangle
@@ -42,7 +42,7 @@ def draw_mesh(
     edges: bool | None = None,
     view: tuple[float, float] | None = None,
     up: str | None = None,
-    sheet: Sheet | None = None,
+    sheet: Sheet = COLUMN,
 ) -> None:
     """Draw a mesh, shaded; what turns its back to us has another colour.
 
@@ -70,7 +70,6 @@ def draw_mesh(
     InputError
         On points or triangles that are none, or other than one value a point.
     """
-    sheet = Sheet() if sheet is None else sheet
     check_sheet(path, sheet)
     cloud = check_points(points, least=3)
     faces = _check_faces(triangles, len(cloud))
@@ -101,7 +100,7 @@ def draw_plane(
     values: ArrayLike | None = None,
     label: str = "value",
     edges: bool | None = None,
-    sheet: Sheet | None = None,
+    sheet: Sheet = COLUMN,
 ) -> None:
     """Draw the parameter plane of a mesh: its edges, and its boundary and gaps in the accent colour.
 
@@ -127,7 +126,6 @@ def draw_plane(
     InputError
         On parameters or triangles that are none, or other than one value a point.
     """
-    sheet = Sheet() if sheet is None else sheet
     check_sheet(path, sheet)
     plane = check_uv(uv, len(uv))
     faces = _check_faces(triangles, len(plane))

@@ -39,6 +39,9 @@ class Sheet:
     is_transparent: bool = False
 
 
+COLUMN = Sheet()
+
+
 @dataclass(frozen=True, slots=True)
 class Panel:
     """The figure and its places: where to draw, how many points (1/72 inch) wide and high that is, the colour bar."""

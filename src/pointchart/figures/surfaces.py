@@ -17,7 +17,7 @@ from ..scene import GRID, Scene, look_at_mesh
 from ..surface_picture import diverging, paint_deviation, paint_lines
 from ..typing import UV, Floats, Points, Triangles
 from .camera import camera
-from .sheet import Panel, Sheet, check_sheet, image_pixels, lay_out, round_up, show_scale
+from .sheet import COLUMN, Panel, Sheet, check_sheet, image_pixels, lay_out, round_up, show_scale
 
 Mesh: TypeAlias = tuple[Points, Triangles, UV]
 
@@ -35,7 +35,7 @@ def draw_deviation_map(
     unit: str = "mm",
     view: tuple[float, float] | None = None,
     up: str | None = None,
-    sheet: Sheet | None = None,
+    sheet: Sheet = COLUMN,
 ) -> None:
     """Draw how far a scan is from its surface: warm where it is above, on the side of the normal, cold below.
 
@@ -67,7 +67,6 @@ def draw_deviation_map(
     InputError
         On points that are none or far from the surface, or a limit that is no length.
     """
-    sheet = Sheet() if sheet is None else sheet
     check_sheet(path, sheet)
     if limit is not None and not 0.0 < limit < np.inf:
         raise InputError(f"the limit of the colours is {limit:g}; give a length more than 0, in {unit}")
@@ -92,7 +91,7 @@ def draw_zebra(
     *,
     view: tuple[float, float] | None = None,
     up: str | None = None,
-    sheet: Sheet | None = None,
+    sheet: Sheet = COLUMN,
 ) -> None:
     """Draw how a surface reflects parallel lines of light: smooth where its curvature is continuous.
 
@@ -113,7 +112,6 @@ def draw_zebra(
     FormatError
         The file cannot be written.
     """
-    sheet = Sheet() if sheet is None else sheet
     check_sheet(path, sheet)
     panel, scene = _seen(tessellate(surface, loops, GRID), view, up, sheet, has_bar=False)
     paint_lines(panel.axes, surface, scene)
