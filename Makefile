@@ -20,7 +20,7 @@ demo: .venv/run  ## simulate a laser scan, mesh it, print the certificate, write
 	$(BIN)/pointchart demo -o demo
 
 test: .venv/dev  ## run all tests, in two processes
-	$(BIN)/pytest -n 2 --dist loadgroup
+	OPENBLAS_NUM_THREADS=1 $(BIN)/pytest -n 2 --dist loadgroup
 
 check: .venv/dev  ## format, lint, types, import contracts
 	$(BIN)/ruff format --check .

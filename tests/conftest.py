@@ -16,7 +16,7 @@ from pointchart import shapes
 from pointchart.cli import main
 
 # Compiled kernels make first examples slow; a fixed order makes failures come back.
-settings.register_profile("steady", deadline=None, derandomize=True)
+settings.register_profile("steady", deadline=None, derandomize=True, max_examples=50)
 settings.load_profile("steady")
 
 SCANS = Path(__file__).parents[2] / "shared" / "data"

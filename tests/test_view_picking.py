@@ -9,16 +9,8 @@ from pointchart import InputError, ball, delaunay_star, mean_value, nearest, rec
 from pointchart.boundary import is_same_loop, perimeter
 from pointchart.view.around import around_point
 from pointchart.view.frame import Frame, coarser, shades, thinned
-from pointchart.view.picking import (
-    Camera,
-    LoopByHand,
-    dropped,
-    inserted,
-    inside_polygon,
-    nearest_of,
-    nearest_to_ray,
-    project,
-)
+from pointchart.view.loop_by_hand import LoopByHand, dropped, inserted, nearest_of
+from pointchart.view.picking import Camera, in_sight, inside_polygon, nearest_to_ray, project, unproject
 
 RELIEF = shapes.relief(400, seed=2)
 CAMERA = Camera(np.array([0.2, -0.1, 4.0]), np.diag([1.0, -1.0, -1.0]), fov=0.8, aspect=1.5)
@@ -26,15 +18,22 @@ HAIR = 1e-9  # radians
 coordinates = st.floats(-8.0, 8.0, allow_nan=False).map(lambda x: round(x, 3))
 
 
-def ray_through(place, camera=CAMERA):
-    half = np.tan(camera.fov / 2.0) * np.array([camera.aspect, 1.0])
-    return np.append((2.0 * place - 1.0) * half, 1.0) @ camera.axes
+def looking_at_the_origin(place):
+    ahead = -np.asarray(place, float) / np.linalg.norm(place)
+    right = np.cross(ahead, [0.3, -0.2, 0.9])
+    right /= np.linalg.norm(right)
+    return Camera(np.asarray(place, float), np.stack([right, np.cross(ahead, right), ahead]), fov=0.8, aspect=1.5)
 
 
 @pytest.mark.parametrize("row", range(0, 400, 57))
 def test_a_click_where_a_point_is_seen_finds_it(row):
     place = project(RELIEF.points[row : row + 1], CAMERA)[0]
-    assert nearest_to_ray(RELIEF.points, CAMERA.position, ray_through(place), aim=HAIR) == row
+    assert (
+        nearest_to_ray(
+            RELIEF.points, CAMERA.position, unproject(place[None], CAMERA, 1.0)[0] - CAMERA.position, aim=HAIR
+        )
+        == row
+    )
 
 
 @given(arrays(float, (12, 3), elements=coordinates), arrays(float, 3, elements=coordinates))
@@ -87,6 +86,46 @@ def test_an_arrow_holds_the_places_between_its_wings_and_not_its_notch():
             True,
             False,
         ]
+
+
+@pytest.mark.parametrize("place", [(4, 0, 0), (-1, 2, 3), (0.5, -2.9, 0)])
+def test_of_a_sphere_the_points_before_its_horizon_are_seen(place):
+    """The horizon of the unit sphere from a distance d is where the cosine to the line of sight is 1 / d."""
+    height, around = 1.0 - 2.0 * (np.arange(6000) + 0.5) / 6000, np.pi * (1.0 + 5.0**0.5) * np.arange(6000)
+    flat = np.sqrt(1.0 - height**2)
+    sphere = np.column_stack([flat * np.cos(around), flat * np.sin(around), height])
+    distance = float(np.linalg.norm(place))
+    beyond = sphere @ place / distance - 1.0 / distance
+    is_seen = in_sight(sphere, looking_at_the_origin(place), spacing=np.sqrt(4.0 * np.pi / 6000))
+    assert is_seen[beyond > 0.15].all()
+    assert not is_seen[beyond < -0.15].any()
+
+
+@pytest.mark.parametrize("unit", [1e-3, 1.0, 1e4])
+def test_a_sheet_hides_what_is_behind_it_and_nothing_beside_it(unit):
+    near = np.column_stack([shapes.grid(30, 30).points[:, :2] / 29.0 - 0.5, np.full(900, 2.0)])
+    far = np.column_stack([shapes.grid(41, 41).points[:, :2] / 20.0 - 1.0, np.full(1681, 3.0)])
+    camera = Camera(np.zeros(3), np.eye(3), fov=1.2, aspect=1.0)
+    is_seen = in_sight(unit * np.concatenate([near, far]), camera, spacing=unit / 29.0)
+    aside = np.abs(far[:, :2]).max(axis=1) / 3.0 - 0.25
+    assert is_seen[:900].all()
+    assert not is_seen[900:][aside < -0.02].any()
+    assert is_seen[900:][aside > 0.05].all()
+
+
+def test_a_surface_seen_at_a_slant_does_not_hide_itself():
+    sheet = shapes.grid(40, 40).points / 39.0 - [0.5, 0.5, 0.0]
+    for slant in (0, 40, 75):
+        down = np.radians(slant)
+        turned = sheet @ np.array([[1, 0, 0], [0, np.cos(down), np.sin(down)], [0, -np.sin(down), np.cos(down)]])
+        camera = Camera(np.array([0, 0, -3.0]), np.eye(3), fov=0.8, aspect=1.5)
+        assert in_sight(turned, camera, spacing=1 / 39.0).all()
+
+
+@given(arrays(float, (6, 2), elements=st.floats(0.0, 1.0)), st.floats(0.1, 100.0))
+def test_points_are_seen_where_they_were_put(places, depth):
+    camera = looking_at_the_origin((3, 1, 2))
+    assert project(unproject(places, camera, depth), camera) == pytest.approx(places, abs=1e-9)
 
 
 def test_points_behind_the_camera_are_in_no_polygon():

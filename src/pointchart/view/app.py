@@ -7,7 +7,7 @@ import viser
 
 from ..io import Scan
 from ..typing import Loop
-from .boundary_step import CORNER, BoundaryStep
+from .boundary_step import BoundaryStep
 from .cloud_steps import SHOW, NeighbourhoodStep, add_cloud
 from .command import Commands
 from .page import Page, Told
@@ -58,25 +58,18 @@ def _build(page: Page) -> None:
     with tabs.add_tab("Surface"):
         SurfaceStep(page)
     clicks: dict[str, Click] = {SHOW: around.pick, **boundary.clicks}
-    click.options = (*clicks, CORNER)
-    _listen(page, lambda: click.value, clicks, boundary)
+    click.options = tuple(clicks)
+    _listen(page, lambda: click.value, clicks)
     page.loop_changed()
 
 
-def _listen(page: Page, chosen: Callable[[], str], clicks: dict[str, Click], boundary: BoundaryStep) -> None:
-    scene = page.server.scene
-
-    @scene.on_click()
+def _listen(page: Page, chosen: Callable[[], str], clicks: dict[str, Click]) -> None:
+    @page.server.scene.on_click()
     def _(event: viser.SceneClickEvent) -> None:
         if not page.shows_cloud:
             return
         with page.reporting("click"):
-            if chosen() == CORNER:
-                boundary.set_corner(event)
-                return
             drawing = page.drawing
             row = nearest_to_ray(drawing.places, event.ray_origin, event.ray_direction, reach=drawing.spacing)
             if row is not None:
                 clicks[chosen()](row, event)
-
-    scene.on_rect_select(modifier="shift")(boundary.set_rectangle)

@@ -11,27 +11,23 @@ from ..boundary import perimeter, reversed_loop
 from ..errors import InputError, PointchartError
 from ..gaps import place_of
 from ..io import read_loop, read_scan, write_loop
-from ..typing import Floats, Indices
-from .drawing import camera_of
+from ..typing import UV, Floats, Indices
+from .loop_by_hand import dropped, inserted, nearest_of
 from .page import CLOUDS, Page
-from .picking import Camera, dropped, inserted, inside_polygon, nearest_of, project
+from .picking import Camera, in_sight, inside_polygon, project, unproject
 from .step import Step
 from .words import said_html
 
 FOUND, LOOPS, LOADED = "loop-found.txt", "loops.ply", "loaded.txt"
 BOUNDARY_SCORE = 0.5
-INSERT, DROP, CORNER, OUTER = (
-    "inserts it in the loop",
-    "drops the nearest loop point",
-    "sets a polygon corner",
-    "names the outer loop",
-)
+CLOSER = 0.9  # share of the way to the nearest point at which the polygon is drawn
+INSERT, DROP, OUTER = "inserts it in the loop", "drops the nearest loop point", "names the outer loop"
 LABELS = (("--outer", "Outer loop at"), ("--component", "Component"))
 UNDO, REVERSE, RESTART, EMPTY = "Undo", "Reverse", "Found loop", "Empty"
 TAKE, LEAVE, CLEAR = "Add inside", "Drop inside", "Clear polygon"
 HOW = (
-    "“A click” above says what a click on the cloud does: insert, drop, or set corners of a polygon. Shift + drag "
-    "makes a rectangle. Points inside are added, where they score as boundary points, or dropped."
+    "“A click” above says what a click on the cloud does: insert or drop a point. Shift + drag draws a polygon: points "
+    "seen inside are added, where they score as boundary points, or dropped."
 )
 
 
@@ -49,7 +45,7 @@ class BoundaryStep:
         self._found: Indices | None = None
         self._others: Indices = np.empty(0, np.int64)
         self._scores: Floats | None = None
-        self._corners = np.empty((0, 3))
+        self._polygon: tuple[Camera, UV] | None = None
         self.step = Step(
             page,
             "boundary",
@@ -67,28 +63,16 @@ class BoundaryStep:
         gui.add_html(said_html([HOW]))
         edits = gui.add_button_group("By hand", (UNDO, REVERSE, RESTART, EMPTY))
         edits.on_click(lambda event: self._edit(event.target.value))
-        area = gui.add_button_group("Polygon", (TAKE, LEAVE, CLEAR), hint="It reaches through the cloud.")
-        area.on_click(lambda event: self._edit_inside(event.target.value, event.client))
+        area = gui.add_button_group("Polygon", (TAKE, LEAVE, CLEAR), hint="What is behind the cloud is left alone.")
+        area.on_click(lambda event: self._edit_inside(event.target.value))
         self._add_files()
         page.on_loop.append(self._show)
+        page.drawing.on_line(self._draw_polygon)
 
     @property
     def clicks(self) -> dict[str, Callable[[int, viser.SceneClickEvent], object]]:
         """What clicks on the cloud can do for the boundary, given the point that is meant."""
         return {INSERT: self._insert, DROP: self._drop, OUTER: self._name_outer}
-
-    def set_corner(self, event: viser.SceneClickEvent) -> None:
-        """Set a corner of the polygon, at the depth of the middle of the cloud."""
-        origin, ray = np.asarray(event.ray_origin), np.asarray(event.ray_direction)
-        with self._page.editing():
-            self._set_polygon(np.vstack([self._corners, origin + ray * np.linalg.norm(origin)]))
-
-    def set_rectangle(self, event: viser.SceneRectSelectEvent) -> None:
-        """Make a rectangle that was dragged the polygon."""
-        (left, top), (right, bottom) = event.screen_min, event.screen_max
-        places = np.array([[left, top], [right, top], [right, bottom], [left, bottom]])
-        with self._page.editing():
-            self._set_polygon(_at_middle(camera_of(event.client), places))
 
     def _take(self) -> None:
         found, columns = read_loop(self._page.folder / FOUND), read_scan(self._page.folder / LOOPS).attributes
@@ -126,14 +110,15 @@ class BoundaryStep:
                 hand.begin(self._found)
             self._page.loop_changed()
 
-    def _edit_inside(self, what: str, client: viser.ClientHandle | None) -> None:
+    def _edit_inside(self, what: str) -> None:
         hand = self._page.hand
         with self._page.editing():
-            if what != CLEAR and client is not None:
-                rows = self._rows_inside(camera_of(client), hand.loop if what == LEAVE else self._likely())
+            if what != CLEAR:
+                rows = self._rows_inside(hand.loop if what == LEAVE else self._likely())
                 points = self._page.scan.points
                 hand.change(dropped(hand.loop, rows) if what == LEAVE else inserted(points, hand.loop, rows))
-            self._set_polygon(np.empty((0, 3)))
+            self._polygon = None
+            self._page.drawing.draw_polygon(np.empty((0, 3)))
             self._page.loop_changed()
 
     def _likely(self) -> Indices:
@@ -142,15 +127,17 @@ class BoundaryStep:
             raise InputError("points have no scores yet, which tell boundary points; find the boundary first")
         return np.flatnonzero(self._scores >= BOUNDARY_SCORE)
 
-    def _rows_inside(self, camera: Camera, rows: Indices) -> Indices:
-        if len(self._corners) < 3:
-            raise InputError(
-                f"the polygon has {len(self._corners)} corners; set 3 at least, or drag a rectangle with the shift key"
-            )
-        places = project(self._page.drawing.places[rows], camera)
-        inside = rows[inside_polygon(places, project(self._corners, camera))]
+    def _rows_inside(self, rows: Indices) -> Indices:
+        """Return those of some points that were seen inside the polygon when it was drawn."""
+        if self._polygon is None or len(self._polygon[1]) < 3:
+            raise InputError("no polygon has been drawn; drag with the shift key round some boundary points")
+        (camera, polygon), drawing = self._polygon, self._page.drawing
+        is_seen = in_sight(drawing.places, camera, spacing=drawing.spacing)[rows]
+        inside = rows[is_seen & inside_polygon(project(drawing.places[rows], camera), polygon)]
         if not len(inside):
-            raise InputError(f"none of {len(rows)} boundary points is inside the polygon; draw it round some of them")
+            raise InputError(
+                f"none of {len(rows)} boundary points is seen inside the polygon; draw it round some of them"
+            )
         return inside
 
     def _insert(self, row: int, _: viser.SceneClickEvent) -> None:
@@ -169,9 +156,12 @@ class BoundaryStep:
         self.step.controls.set("--outer", place_of(self._page.scan.points, row).strip("()").replace(" ", ""))
         self._page.loop_changed()
 
-    def _set_polygon(self, corners: Floats) -> None:
-        self._corners = corners
-        self._page.drawing.draw_polygon(corners)
+    def _draw_polygon(self, camera: Camera, polygon: UV) -> None:
+        if self._page.shows_cloud:
+            self._polygon = camera, polygon
+            depth = (self._page.drawing.places - camera.position) @ camera.axes[2]
+            ahead = depth[depth > 0.0].min(initial=np.inf)
+            self._page.drawing.draw_polygon(unproject(polygon, camera, CLOSER * ahead))
 
     def _show(self) -> None:
         loop, points = self._page.hand.loop, self._page.scan.points
@@ -202,10 +192,3 @@ class BoundaryStep:
                 except PointchartError as failure:
                     raise PointchartError(str(failure).replace(str(path), load.value.name)) from None
                 page.loop_changed()
-
-
-def _at_middle(camera: Camera, places: Floats) -> Floats:
-    """Return the places in space, as far away as the middle of the cloud, that are seen at places of the picture."""
-    half = np.tan(camera.fov / 2.0) * np.array([camera.aspect, 1.0])
-    rays = np.column_stack([(2.0 * places - 1.0) * half, np.ones(len(places))]) @ camera.axes
-    return np.asarray(camera.position + rays * np.linalg.norm(camera.position))

@@ -1,5 +1,7 @@
 """What the page shows in space: the cloud, a neighbourhood, loops, parameters, mesh and surface."""
 
+from collections.abc import Callable
+
 import numpy as np
 import viser
 
@@ -10,6 +12,7 @@ from .frame import Frame, coarser, shades, thinned
 from .picking import Camera
 
 MOST_POINTS, MOST_TRIANGLES = 300_000, 400_000
+FAR = 4000.0  # beyond what cameras draw, but not beyond what is under the pointer
 SPACING = 0.5  # diameter of a drawn point over the spacing of those drawn
 
 LOOP, OTHER, LINK, PALE, EDGE = (200, 85, 61), (226, 160, 60), (24, 78, 119), (190, 214, 230), (34, 48, 60)
@@ -53,6 +56,24 @@ class Drawing:
         server.initial_camera.look_at = (0.0, 0.0, 0.0)
         server.initial_camera.up = (0.0, 0.0, 1.0)
         server.initial_camera.fov = np.deg2rad(45.0)
+
+    def on_line(self, tell: Callable[[Camera, UV], object]) -> None:
+        """Have every line that is drawn with the shift key told, as places of the picture, (k, 2), while it grows."""
+        lines: dict[int, list[tuple[float, float]]] = {}
+        # Only what is under the pointer can be dragged: something that is, wherever it is, and is never drawn.
+        corners = FAR * np.array([[1, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1]], dtype=np.float32)
+        sides = np.array([[0, 1, 2], [0, 2, 3], [0, 3, 1], [1, 3, 2]])
+        around = self._scene.add_mesh_simple("/around", corners, sides, opacity=0.0, side="double", cast_shadow=False)
+
+        # Phases come in order only to what is asynchronous and does not wait.
+        async def grow(event: viser.SceneNodeDragEvent[viser.MeshHandle]) -> None:
+            line = lines.setdefault(event.client_id, [])
+            if event.phase == "start":
+                line[:] = [event.start_screen_pos]
+            line.append(event.end_screen_pos)
+            tell(camera_of(event.client), np.array(line))
+
+        around.on_drag(modifier="shift")(grow)
 
     def show(self, shown: str) -> None:
         """Show one of the groups and hide the others."""
@@ -112,10 +133,8 @@ class Drawing:
     def draw_polygon(self, corners: Floats) -> None:
         """Draw the polygon that selects points, given its corners in space, (k, 3)."""
         self._clear("/cloud/polygon")
-        if len(corners) > 1:
+        if len(corners):
             self._lines("/cloud/polygon", np.stack([corners, np.roll(corners, -1, axis=0)], axis=1), LINK, 2.0)
-        elif len(corners):
-            self._ball("/cloud/polygon", corners[0], 0.01, LINK)
 
     def draw_plane(self, uv: UV, loop: Loop) -> None:
         """Draw the parameters of the points, and the boundary in the plane."""

@@ -21,7 +21,7 @@ from .command import Commands, shell_line
 from .drawing import Drawing
 from .guard import address, start_server, stop_server
 from .job import Cancelled, Job
-from .picking import LoopByHand
+from .loop_by_hand import LoopByHand
 
 LOG = logging.getLogger(__name__)
 BRAND = (38, 99, 140)
@@ -54,7 +54,7 @@ class Page:
     Attributes
     ----------
     edits : RLock
-        Held by whatever changes the loop, its polygon, or reads them to run a command.
+        Held by whatever changes the loop, or reads it to run a command.
     """
 
     def __init__(
@@ -261,7 +261,7 @@ class Page:
 
     @contextmanager
     def editing(self) -> Iterator[None]:
-        """Let changes of the loop and its polygon come one after the other, and show their errors."""
+        """Let changes of the loop come one after the other, and show their errors."""
         with self.edits, self.reporting("boundary"):
             yield
 

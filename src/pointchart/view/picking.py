@@ -1,16 +1,17 @@
-"""What a click or a drawn polygon means on a cloud of points, and a loop changed by hand; knows no page."""
+"""What a click or a drawn polygon means on a cloud of points; knows no page."""
 
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
+from scipy.ndimage import minimum_filter
 
-from .._check import check_loop
-from ..errors import InputError
-from ..typing import UV, Floats, Indices, Loop, Mask, Points
+from ..typing import UV, Floats, Mask, Points
 
 AIM = 0.012  # radians: how far beside a point a click may be, some ten pixels
 DEEP = 4.0  # times as far as that behind the first point hit, others are hit as well, as on a slanted surface
+STEEP = 9.0  # cells behind the front one a point is still in sight: where one and a half aside are seen at 80 degrees
+MOST_CELLS = 2000  # a side of the picture that tells what is in front
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -56,6 +57,65 @@ def project(points: Points, camera: Camera) -> UV:
     depth = np.where(depth > 0.0, depth, np.nan)
     half = np.tan(camera.fov / 2.0) * np.array([camera.aspect, 1.0])
     return np.asarray(0.5 + np.column_stack([right, down]) / (2.0 * half * depth[:, None]))
+
+
+def unproject(places: UV, camera: Camera, depth: float) -> Points:
+    """Return the points so far ahead of a camera that are seen at places of its picture; the inverse of `project`.
+
+    Parameters
+    ----------
+    places : (n, 2) array
+    camera : Camera
+    depth : float
+
+    Returns
+    -------
+    (n, 3) float64 array.
+
+    Examples
+    --------
+    >>> ahead = Camera(np.zeros(3), np.eye(3), fov=np.pi / 2, aspect=2.0)
+    >>> unproject(np.array([[0.5, 0.5], [1.0, 1.0]]), ahead, 5.0).round(9).tolist()
+    [[0.0, 0.0, 5.0], [10.0, 5.0, 5.0]]
+    """
+    half = np.tan(camera.fov / 2.0) * np.array([camera.aspect, 1.0])
+    rays = np.column_stack([(2.0 * places - 1.0) * half, np.ones(len(places))])
+    return np.asarray(camera.position + depth * (rays @ camera.axes))
+
+
+def in_sight(points: Points, camera: Camera, *, spacing: float) -> Mask:
+    """Tell which points are seen, by a picture of how far away the nearest ones are.
+
+    Parameters
+    ----------
+    points : (n, 3) array
+    camera : Camera
+    spacing : float
+        Of the points: what lies closer together hides what is behind it.
+
+    Returns
+    -------
+    (n,) bool array, False outside the picture.
+
+    Examples
+    --------
+    >>> ahead = Camera(np.zeros(3), np.eye(3), fov=np.pi / 2, aspect=1.0)
+    >>> in_sight(np.array([[0.0, 0, 5], [0, 0, 9], [3, 0, 9], [0, 0, -1]]), ahead, spacing=0.1).tolist()
+    [True, False, True, False]
+    """
+    places, depth = project(points, camera), (points - camera.position) @ camera.axes[2]
+    is_seen: Mask = np.all((places >= 0.0) & (places < 1.0), axis=1)
+    if not is_seen.any():
+        return is_seen
+    depth = depth[is_seen]
+    cell = max(spacing / (2.0 * np.tan(camera.fov / 2.0) * float(np.median(depth))), 1.0 / MOST_CELLS)
+    across, down = np.minimum(places[is_seen] * [camera.aspect, 1.0] / cell, MOST_CELLS).astype(np.int64).T
+    front = np.full((across.max() + 1, down.max() + 1), np.inf)
+    np.minimum.at(front, (across, down), depth)
+    front = minimum_filter(front, 3, mode="nearest")
+    steep = STEEP * cell * 2.0 * np.tan(camera.fov / 2.0)
+    is_seen[is_seen] = depth <= front[across, down] * (1.0 + steep)
+    return is_seen
 
 
 def nearest_to_ray(
@@ -123,116 +183,3 @@ def inside_polygon(places: UV, polygon: ArrayLike) -> Mask:
         spans = (y0 > y) != (y1 > y)
         is_inside ^= spans & ((x - x0) * abs(y1 - y0) > (y - y0) * (x1 - x0) * np.sign(y1 - y0))
     return is_inside
-
-
-def inserted(points: Points, loop: Loop, indices: ArrayLike) -> Loop:
-    """Insert points into a loop, one by one where they lengthen it least, the nearest to it first.
-
-    Parameters
-    ----------
-    points : (n, 3) array
-    loop : (b,) int array
-    indices : int or (k,) int array
-        Those that are in the loop already stay where they are.
-
-    Returns
-    -------
-    (b + k,) int64 array.
-
-    Examples
-    --------
-    >>> corners = np.array([[0.0, 0, 0], [2, 0, 0], [2, 2, 0], [0, 2, 0], [1, 0, 0]])
-    >>> inserted(corners, np.array([0, 1, 2, 3]), 4).tolist()
-    [0, 4, 1, 2, 3]
-    """
-    new = np.setdiff1d(np.atleast_1d(np.asarray(indices, dtype=np.int64)), loop)
-    if len(loop):
-        from scipy.spatial import cKDTree
-
-        new = new[np.argsort(cKDTree(points[loop]).query(points[new])[0], kind="stable")]
-    longer = np.asarray(loop, dtype=np.int64)
-    for index in new:
-        place, steps = points[longer], np.linalg.norm(points[longer] - points[index], axis=1)
-        cost = steps + np.roll(steps, -1) - np.linalg.norm(np.roll(place, -1, axis=0) - place, axis=1)
-        longer = np.insert(longer, int(np.argmin(cost)) + 1 if len(longer) > 1 else len(longer), index)
-    return longer
-
-
-def dropped(loop: Loop, indices: ArrayLike) -> Loop:
-    """Drop points from a loop.
-
-    Examples
-    --------
-    >>> dropped(np.array([7, 3, 5, 9]), [5, 8]).tolist()
-    [7, 3, 9]
-    """
-    return loop[~np.isin(loop, indices)]
-
-
-def nearest_of(points: Points, loop: Loop, index: int) -> int:
-    """Return the point of a loop that is nearest to a point of the cloud.
-
-    Raises
-    ------
-    InputError
-        If the loop is empty.
-
-    Examples
-    --------
-    >>> nearest_of(np.array([[0.0, 0, 0], [4, 0, 0], [3, 0, 0]]), np.array([0, 1]), 2)
-    1
-    """
-    if not len(loop):
-        raise InputError("the loop has 0 points; find the boundary, or click points to insert them")
-    return int(loop[np.argmin(np.linalg.norm(points[loop] - points[index], axis=1))])
-
-
-class LoopByHand:
-    """A loop under way, with the loops that it was before.
-
-    Parameters
-    ----------
-    n_points : int
-        Of the cloud.
-    given : (b,) int array, optional
-        The user's own loop to begin with.
-
-    Examples
-    --------
-    >>> hand = LoopByHand(9)
-    >>> hand.begin(np.array([4, 1, 7, 8]))
-    >>> hand.change(dropped(hand.loop, 8))
-    >>> hand.loop.tolist(), hand.is_own
-    ([4, 1, 7], True)
-    >>> hand.undo()
-    >>> hand.loop.tolist(), hand.is_own
-    ([4, 1, 7, 8], False)
-    """
-
-    def __init__(self, n_points: int, given: ArrayLike | None = None) -> None:
-        empty = np.empty(0, np.int64)
-        self._past: list[tuple[Loop, bool]] = [(empty, False) if given is None else (check_loop(given, n_points), True)]
-
-    @property
-    def loop(self) -> Loop:
-        """The loop as it is now, (b,) int64."""
-        return self._past[-1][0]
-
-    @property
-    def is_own(self) -> bool:
-        """Whether it is the user's: given or changed, so that it has to be said what the boundary is."""
-        return self._past[-1][1]
-
-    def begin(self, loop: Indices) -> None:
-        """Begin again with a loop that was found."""
-        self._past.append((np.asarray(loop, dtype=np.int64), False))
-
-    def change(self, loop: Indices) -> None:
-        """Take another loop, if it is another."""
-        if not np.array_equal(loop, self.loop):
-            self._past.append((np.asarray(loop, dtype=np.int64), True))
-
-    def undo(self) -> None:
-        """Go back to the loop before, if there is one."""
-        if len(self._past) > 1:
-            self._past.pop()
