@@ -25,7 +25,7 @@ from PIL import Image
 from rabbit import rabbit
 
 from pointchart.boundary import chord_length_steps, on_circle, order_by_halves
-from pointchart.figures import camera
+from pointchart.camera import camera
 from pointchart.neighbors import Neighborhoods, ball
 from pointchart.parameterize import parameterize
 from pointchart.picture import ACCENT, INK, STONE, paint_loop, paint_triangles, paint_wires

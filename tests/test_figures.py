@@ -11,7 +11,8 @@ from matplotlib import colors, image
 from matplotlib import pyplot as plt
 
 from pointchart import FormatError, InputError, scene, shapes
-from pointchart.figures import Sheet, camera, draw_cloud, draw_deviation_map, draw_mesh, draw_plane, draw_zebra
+from pointchart.camera import camera, upright_axes, upward
+from pointchart.figures import Sheet, draw_cloud, draw_deviation_map, draw_mesh, draw_plane, draw_zebra
 from pointchart.figures import surfaces as of_surfaces
 from pointchart.fit import BSplineSurface, evaluate
 from pointchart.picture import ACCENT, INK
@@ -307,6 +308,26 @@ def test_cloud_and_mesh_are_seen_from_the_same_outside(side):
     mesh = camera(points, CAP.triangles if side > 0 else CAP.triangles[:, ::-1])
     assert np.allclose(cloud, mesh)
     assert cloud[2] @ [side, 0.0, 0.0] > 0.85
+
+
+@pytest.mark.parametrize("up", ["x", "y", "z"])
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_a_mesh_that_closes_but_for_an_opening_stands_on_the_axis_of_its_opening(up, sign):
+    bowl, (right, above, towards) = shapes.hemisphere(400, angle=150), upright_axes(up)
+    # Broad to the right, shallow towards us, open upwards or downwards.
+    stretched = np.stack([1.5 * right, 0.8 * towards, sign * above])
+    points = bowl.points @ stretched
+    triangles = bowl.triangles if np.linalg.det(stretched) > 0 else bowl.triangles[:, ::-1]
+    assert upward(points, triangles) == up
+    _, upwards, facing = camera(points, triangles)
+    assert upwards @ above == pytest.approx(np.cos(np.deg2rad(25)))
+    assert facing @ towards > 0.85
+
+
+@pytest.mark.parametrize("up", ["x", "y", "z"])
+def test_what_is_flat_stands_where_it_does_not_lie(up):
+    sheet = DISC.points @ np.stack([*np.delete(np.eye(3), "xyz".index(up), axis=0), np.eye(3)["xyz".index(up)]])
+    assert upward(sheet) == upward(sheet, DISC.triangles) == ("y" if up == "z" else "z")
 
 
 def test_a_level_scan_is_seen_from_above():

@@ -10,6 +10,7 @@ from PIL import Image
 
 import pointchart as pc
 from pointchart import shapes
+from pointchart.camera import camera
 from pointchart.clock import StageClock
 from pointchart.mesh import boundary_loops, fans, half_edges
 from pointchart.page import lay_out
@@ -38,8 +39,9 @@ def made():
 def page_file(made, tmp_path_factory):
     points, result, run = made
     path = tmp_path_factory.mktemp("page") / "run.html"
+    words = {"command": "pointchart mesh 'a b.ply'", "figure": "pointchart figure mesh a.ply -o a.pdf"}
     title = "</script><img src=x onerror=alert(1)>&amp;{{data}}.ply"
-    path.write_text(lay_out(points, result, run, title=title, command="pointchart mesh 'a b.ply'").text, "utf-8")
+    path.write_text(lay_out(points, result, run, title=title, **words).text, "utf-8")
     return path
 
 
@@ -262,6 +264,19 @@ def test_keys_colour_turn_and_draw_edges(opened):
     opened.wait_for_timeout(80)
     again, _ = seen(opened, "#space")
     assert np.abs(again - coloured).max() < 2
+
+
+def test_the_command_for_a_figure_looks_the_way_the_mesh_is_turned(opened, made):
+    page, (points, result, _) = opened, made
+    for keys in ("", "ArrowLeft", "ArrowUp ArrowUp", "ArrowRight ArrowDown ArrowDown ArrowDown"):
+        for key in keys.split():
+            page.keyboard.press(key)
+        page.wait_for_timeout(100)
+        *words, view, flag, up = page.locator("#figure pre").inner_text().split()
+        assert (words, flag) == (["pointchart", "figure", "mesh", "a.ply", "-o", "a.pdf"], "--up")
+        angles = [float(angle) for angle in view.removeprefix("--view=").split(",")]
+        towards = camera(points, result.triangles, view=angles, up=up)[2]
+        assert towards @ page.evaluate("scene.turn.slice(6, 9)") > np.cos(np.deg2rad(1.0))
 
 
 def test_a_place_to_look_at_comes_to_the_middle_of_both_views(made, browser, tmp_path):

@@ -7,9 +7,9 @@ from typing import Self, TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike
 
+from .camera import OBLIQUE
 from .fit import Surface
 from .fit.tessellate import tessellate
-from .picture import rotation
 from .quality import area_vectors
 from .typing import UV, Floats, Indices, Mask, Points, Triangles
 
@@ -19,7 +19,6 @@ GRID = 15_000  # points of the mesh that finds what is seen; each pixel then sam
 PIXELS = 1_600_000  # of the box around the surface, about twice as many each way as are printed
 CHUNK = 500_000  # pixels of the boxes around triangles that are drawn at a time
 MARGIN = 3.0  # pixels around the surface
-OBLIQUE = rotation(-10.0, 25.0)  # out of the view along the mean normal
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -117,7 +117,7 @@ def fit(
     from ..surfacing import fit_scan
     from .choices import GAPS, amount, corner_names, fairness_weight, layout_rule, outer_place
     from .inputs import read_inputs
-    from .output import command_line, given_options, page_title
+    from .output import given_options, page_words
 
     context.with_resource(on_threads(threads))
     allowed_of, place = amount("--tolerance", tolerance, positive=True), outer_place(outer, boundary)
@@ -171,7 +171,7 @@ def fit(
     page = None  # over the parameters of the surface, which the fit has corrected
     if html is not None:
         made, off = replace(surfaced.reconstruction, uv=surfaced.fit.uv), surfaced.deviation.signed
-        page = lay_out(points, made, run, title=page_title(scan, out), command=command_line(), deviation=off)
+        page = lay_out(points, made, run, deviation=off, **page_words(scan, out))
     shown = surfaced.fit.surface, surfaced.loops
     with ExitStack() as stack, writing_json(report, run), writing_page(html, page):
         # Each file is in its place only when all of them are written.

@@ -61,7 +61,7 @@ def mesh(
     from ..report import boundary_lines, certificate_lines, intersection_lines, run_report, summary, writing_json
     from .choices import CHARTS, GAPS, SWAPS, connect_rule, corner_names, layout_rule, outer_place, weights_rule
     from .inputs import read_inputs
-    from .output import carried, command_line, given_options, page_title
+    from .output import carried, given_options, page_words
 
     context.with_resource(on_threads(threads))
     connect, place = connect_rule(neighbors, k, radius), outer_place(outer, boundary)
@@ -90,7 +90,7 @@ def mesh(
         page = None
         if html is not None:
             with clock("page"):
-                page = lay_out(points, result, run, title=page_title(scan, out), command=command_line())
+                page = lay_out(points, result, run, **page_words(scan, out))
     attributes = carried(inputs, rows)
     if out.suffix.lower() in HOLD_STRETCH:
         attributes |= {"stretch": vertex_stretches(points, result.triangles, result.uv)}

@@ -28,6 +28,11 @@ def given_options(context: typer.Context) -> dict[str, Any]:
     }
 
 
+def page_words(scan: Path, out: Path) -> dict[str, Any]:
+    """Return what a page says of the run besides its result: as `lay_out` takes it."""
+    return {"title": page_title(scan, out), "command": command_line(), "figure": figure_line(out, scan)}
+
+
 def page_title(scan: Path, out: Path) -> str:
     """Return a heading that tells pages of several runs apart.
 
@@ -35,6 +40,25 @@ def page_title(scan: Path, out: Path) -> str:
     'foot/points.ply to foot.step'
     """
     return f"{Path(scan.absolute().parent.name) / scan.name} to {out.name}"
+
+
+def figure_line(out: Path, scan: Path) -> str | None:
+    """Return the command that draws a figure of what was written; None of what has none.
+
+    >>> figure_line(Path("mesh.ply"), Path("scan.ply"))
+    'pointchart figure mesh mesh.ply -o mesh.pdf'
+    >>> figure_line(Path("surface.json"), Path("scan.ply"))
+    'pointchart figure deviation surface.json --points scan.ply -o surface.pdf'
+    >>> figure_line(Path("surface.step"), Path("scan.ply"))
+    """
+    from ..io import MESH_SUFFIXES
+
+    suffix, picture = out.suffix.lower(), str(out.with_suffix(".pdf"))
+    if suffix == ".json":
+        return shlex.join(["pointchart", "figure", "deviation", str(out), "--points", str(scan), "-o", picture])
+    if suffix in MESH_SUFFIXES:
+        return shlex.join(["pointchart", "figure", "mesh", str(out), "-o", picture])
+    return None
 
 
 def command_line() -> str:

@@ -1,7 +1,6 @@
 """Figures for papers: one picture without a title, as wide as a column, as PNG, SVG or PDF."""
 
 from ..picture import PICTURE_SUFFIXES
-from .camera import camera
 from .clouds import draw_cloud
 from .meshes import draw_mesh, draw_plane
 from .sheet import Sheet
@@ -10,7 +9,6 @@ from .surfaces import draw_deviation_map, draw_zebra
 __all__ = [
     "PICTURE_SUFFIXES",
     "Sheet",
-    "camera",
     "draw_cloud",
     "draw_deviation_map",
     "draw_mesh",

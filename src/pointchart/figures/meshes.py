@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .._check import check_points, check_triangles, check_uv
+from ..camera import camera
 from ..errors import InputError
 from ..io.source import AnyPath
 from ..mesh import boundary_loops, half_edges
@@ -23,7 +24,6 @@ from ..picture import (
 )
 from ..scene import rasterize, spread
 from ..typing import UV, Floats, Points, Triangles
-from .camera import camera
 from .clouds import check_values
 from .sheet import COLUMN, Panel, Sheet, check_sheet, image_pixels, lay_out, sequential, show_scale
 

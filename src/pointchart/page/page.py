@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..camera import camera, upright_axes, upward
 from ..io import replacing
 from ..mesh import boundary_loops, half_edges
 from ..pipeline import Reconstruction
@@ -64,6 +65,7 @@ def lay_out(
     *,
     title: str,
     command: str,
+    figure: str | None = None,
     deviation: Floats | None = None,
     most: int = MOST_POINTS,
 ) -> Page:
@@ -80,6 +82,8 @@ def lay_out(
         Name of the scan.
     command : str
         The command line that repeats the run.
+    figure : str, optional
+        The command line that draws a figure of what was written; the page adds from where.
     deviation : (n,) array, optional
         Signed, from a surface that was fitted, of which `run` tells.
     most : int
@@ -94,6 +98,7 @@ def lay_out(
     shades = mesh_shades(points, result.triangles, result.uv, result.loop, deviation=deviation)
     loops = [shown.along(loop) for loop in boundary_loops(half_edges(result.triangles, len(points)))]
     low, extent = points.min(axis=0), float(np.ptp(points, axis=0).max())
+    up = upward(points, result.triangles)
     arrays: dict[str, NDArray[Any]] = {
         "position": quantized(points[shown.kept], low, extent),
         "uv": result.uv[shown.kept].astype(np.float32),
@@ -111,6 +116,10 @@ def lay_out(
     content = {
         "title": title,
         "command": command,
+        "figure": figure,
+        "up": up,
+        "upright": upright_axes(up).ravel().tolist(),
+        "turn": camera(points, result.triangles, up=up).ravel().tolist(),
         "made_with": f"pointchart {version('pointchart')}, Python {platform.python_version()}, numpy {np.__version__}",
         "box": {"low": low.tolist(), "extent": extent},
         "drawn": len(shown.kept),

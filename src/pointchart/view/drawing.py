@@ -52,7 +52,7 @@ class Drawing:
             self._scene.add_light_directional(f"/light/{name}", position=place, intensity=intensity)
 
     def _look(self, server: viser.ViserServer) -> None:
-        server.initial_camera.position = tuple(4.6 * self.frame.facing + np.array([0.0, 0.0, 0.9]))
+        server.initial_camera.position = tuple(4.7 * self.frame.facing)
         server.initial_camera.look_at = (0.0, 0.0, 0.0)
         server.initial_camera.up = (0.0, 0.0, 1.0)
         server.initial_camera.fov = np.deg2rad(45.0)

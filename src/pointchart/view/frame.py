@@ -2,12 +2,12 @@
 
 import numpy as np
 
+from ..camera import camera, upright_axes, upward
 from ..neighbors import nearest
 from ..stars import normals
 from ..typing import Floats, Indices, Points, Triangles
 
 SIZE = 4.0  # diagonal of the scan on the page
-LEVEL = 0.7  # cosine of the angle to z up to which a patch is seen as on a map, with y up
 
 
 class Frame:
@@ -19,23 +19,20 @@ class Frame:
 
     Examples
     --------
-    >>> sheet = np.array([[7.0, 7, 0], [9, 7, 0], [9, 9, 0], [7, 9, 0.5]])
+    >>> sheet = np.array([[7.0, 7, 0], [9, 7, 0], [9, 9, 0], [7, 9, 0]])
     >>> frame = Frame(sheet)
     >>> [round(float(x), 2) for x in frame.places(sheet)[2]], [round(float(x), 2) for x in frame.facing]
-    ([1.39, 0.35, 1.39], [0.12, -0.98, -0.12])
+    ([1.41, 0.0, 1.41], [0.16, -0.89, 0.42])
     """
 
     def __init__(self, points: Points) -> None:
         low, high = points.min(axis=0), points.max(axis=0)
         self._middle = (low + high) / 2.0
         self.scale = SIZE / float(np.linalg.norm(high - low))
-        some = (points[:: max(1, len(points) // 10_000)] - self._middle) * self.scale
-        facing = np.linalg.svd(some - some.mean(axis=0), full_matrices=False)[2][2]
-        is_map = abs(facing[2]) > LEVEL
-        # Rows are the directions right, away and up.
-        self._axes = np.array([[1.0, 0, 0], [0, 0, -1], [0, 1, 0]]) if is_map else np.eye(3)
-        turned = self._axes @ facing
-        self.facing = turned if turned[1] <= 0.0 else -turned
+        some = points[:: max(1, len(points) // 10_000)]
+        right, above, towards = upright_axes(upward(some))
+        self._axes = np.stack([right, -towards, above])
+        self.facing = self._axes @ camera(some)[2]
 
     def places(self, points: Points) -> Floats:
         """Return where points are on the page, (n, 3) float32."""

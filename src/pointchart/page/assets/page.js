@@ -163,6 +163,14 @@ function light(scene, arrays, vertex) {
   readout.replaceChildren(...parts.map(([name, value]) => made("span", {}, `${name} `, made("b", { textContent: value.replaceAll("-", "−") }))));
 }
 
+// The command for a figure that looks the same way: its angles go around the axis upwards, and none leans aside.
+function tellFigure(turn) {
+  const towards = turn.slice(6, 9), [x, y, z] = [0, 3, 6].map((k) => dot(content.upright.slice(k, k + 3), towards));
+  const angles = [Math.atan2(x, z), Math.asin(Math.min(Math.max(y, -1), 1))].map((angle) => Math.round((angle * 180) / Math.PI));
+  $("figure").hidden = content.figure === null;
+  $("figure").lastElementChild.textContent = `${content.figure} --view=${angles.join(",")} --up ${content.up}`;
+}
+
 function nearestTo(arrays, place) {
   const { low, extent } = content.box, at = place.map((x, d) => ((x - low[d]) / (extent || 1)) * 65535);
   let best = 0, least = Infinity;
@@ -176,7 +184,7 @@ function nearestTo(arrays, place) {
 function handle(scene, arrays) {
   const stage = $("stage"), touches = new Map();
   let lit = null, isHeld = false, last = null, moved = 0;
-  scene.drawn = () => light(scene, arrays, lit);
+  scene.drawn = () => { light(scene, arrays, lit); tellFigure(scene.turn); };
   $("places").append(...content.places.map((place) => {
     const button = made("button", { type: "button", textContent: place.what, className: place.is_doubt ? "doubt" : "" });
     button.addEventListener("click", () => {
@@ -292,7 +300,7 @@ async function begin() {
   try {
     if (!("DecompressionStream" in window)) throw new Error("this browser is too old to unpack the mesh; all else on this page is here");
     const arrays = await unpack();
-    window.scene = new Scene($("canvas"), { space: $("space"), plane: $("plane") }, arrays);
+    window.scene = new Scene($("canvas"), { space: $("space"), plane: $("plane") }, arrays, content.turn);
     handle(window.scene, arrays);
     show(window.scene, arrays, run.surface ? "deviation" : "plain");
     document.body.dataset.ready = "yes";

@@ -48,7 +48,7 @@ void main() {
 }`;
 
 class Scene {
-  constructor(canvas, panes, arrays) {
+  constructor(canvas, panes, arrays, turn) {
     const gl = canvas.getContext("webgl2", { antialias: true, alpha: true, premultipliedAlpha: true });
     if (!gl) throw new Error("this browser has no WebGL 2, which draws the mesh; all else on this page is here");
     Object.assign(this, { canvas, panes, gl, arrays });
@@ -56,7 +56,7 @@ class Scene {
     this.edges = uniqueEdges(arrays.triangles);
     this.rings = ringsOf(this.edges, this.count);
     this.normals = vertexNormals(arrays.position, arrays.triangles, this.count);
-    this.frame = startFrame(arrays.position, this.normals, this.count);
+    this.frame = frameOfSpace(arrays.position, turn);
     this.plane = frameOfPlane(arrays.uv);
     this.options = { wires: false, rim: true, shade: null, reach: [0, 1] };
     this._build();
@@ -361,38 +361,19 @@ function vertexNormals(position, triangles, count) {
 
 // The first view, turned a little to the side. A patch is seen along its mean normal, with z up where that is across the
 // view, else y. A surface that closes up to its boundary stands on it, and is seen where it is widest.
-function startFrame(position, normals, count) {
-  const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity], mean = [0, 0, 0];
-  for (let k = 0; k < 3 * count; k++) {
+function frameOfSpace(position, turn) {
+  const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
+  for (let k = 0; k < position.length; k++) {
     const d = k % 3, x = position[k] / 65535;
     low[d] = Math.min(low[d], x);
     high[d] = Math.max(high[d], x);
-    mean[d] += normals[k] / count;
   }
-  const center = low.map((x, d) => (x + high[d]) / 2), size = Math.hypot(...mean);
+  const center = low.map((x, d) => (x + high[d]) / 2);
   let radius = 0;
-  for (let k = 0; k < 3 * count; k += 3) {
+  for (let k = 0; k < position.length; k += 3) {
     radius = Math.max(radius, Math.hypot(...center.map((c, d) => position[k + d] / 65535 - c)));
   }
-  const facing = size > 1e-6 ? unit(mean) : [0, 0, 1];
-  const across = unit(cross(Math.abs(facing[2]) < 0.7 ? [0, 0, 1] : [0, 1, 0], facing));
-  const third = cross(facing, across);
-  const upright = size > 0.35 ? [across, third, facing] : standing(position, center, facing, across, third);
-  return { turn: turned(upright.flat(), 0.35, 0.2), center, radius: radius || 1 };
-}
-
-// Right, up and towards us: right is the way of the widest spread across what is up.
-function standing(position, center, up, a, b) {
-  let aa = 0, ab = 0, bb = 0;
-  for (let k = 0; k < position.length; k += 3) {
-    const p = center.map((c, d) => position[k + d] / 65535 - c), x = dot(p, a), y = dot(p, b);
-    aa += x * x;
-    ab += x * y;
-    bb += y * y;
-  }
-  const angle = 0.5 * Math.atan2(2 * ab, aa - bb);
-  const right = a.map((x, d) => Math.cos(angle) * x + Math.sin(angle) * b[d]);
-  return [right, up, cross(right, up)];
+  return { turn, center, radius: radius || 1 };
 }
 
 function frameOfPlane(uv) {
