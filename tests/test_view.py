@@ -210,6 +210,18 @@ def test_the_token_opens_the_page_and_no_cookie_tells_it_to_other_servers_of_thi
     assert ask(page, f"/{token_of(page)}/..%2f..%2fetc%2fpasswd")[0] == 404
 
 
+def test_the_address_that_a_browser_is_started_with_opens_the_page_once(bare):
+    """All users of a machine see the words of its processes."""
+    entry = bare.entrance.removeprefix(f"http://127.0.0.1:{bare.server.get_port()}")
+    assert token_of(bare) not in entry
+    assert ask(bare, entry, Origin="http://evil.example")[0] == 403
+    assert ask(bare, f"{entry}index.html")[0] == 403
+    status, _, answer = ask(bare, entry)
+    assert (status, answer.getheader("Location")) == (302, f"/{token_of(bare)}/")
+    assert ask(bare, entry)[0] == 403
+    assert ask(bare, f"/{token_of(bare)}/")[0] == 200
+
+
 def test_a_recording_that_someone_else_has_written_is_not_played(page):
     """Viser plays what its address names, scripts included: an address with more than the token is refused."""
     assert ask(page, f"/{token_of(page)}/?playbackPath=data:application/octet-stream;base64,AAAA")[0] == 403
@@ -257,9 +269,9 @@ def test_the_server_listens_on_loopback_only(page):
 
 
 def test_a_server_that_answers_without_the_token_is_stopped_at_once(monkeypatch):
-    monkeypatch.setattr(guard, "_guarding", lambda token: nullcontext())
+    monkeypatch.setattr(guard, "_guarding", lambda *_: nullcontext())
     with pytest.raises(InputError, match="answers without the token of the page, so it is not started"):
-        guard.start_server("secret")
+        guard.start_server("secret", "entry")
 
 
 def test_the_page_opens_with_the_six_steps_and_no_error(window):

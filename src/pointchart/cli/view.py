@@ -47,7 +47,7 @@ def view(
     if browser:
         import webbrowser
 
-        webbrowser.open(page.address)
+        webbrowser.open(page.entrance)
     Event().wait()
 
 

@@ -38,13 +38,15 @@ class LocalServer(viser.ViserServer):
         """Share nothing."""
 
 
-def start_server(token: str) -> LocalServer:
+def start_server(token: str, entry: str) -> LocalServer:
     """Start a guarded server on a free port of this machine's own address.
 
     Parameters
     ----------
     token : str
         Without it, nothing is answered.
+    entry : str
+        Stands for the token once, so that who starts a browser need not name it: all users see the words of a process.
 
     Returns
     -------
@@ -55,7 +57,7 @@ def start_server(token: str) -> LocalServer:
     InputError
         If the server would answer without the token: then viser has changed and is stopped.
     """
-    with redirect_stdout(io.StringIO()), _guarding(token):
+    with redirect_stdout(io.StringIO()), _guarding(token, entry):
         server = LocalServer(HOST, 0, label="pointchart", verbose=False)
     port = server.get_port()
     if not all(_is_refused(port, headers) for headers in ({}, _upgrade(port))):
@@ -117,12 +119,12 @@ def path_within(path: str, headers: Headers, token: str, port: int) -> str | Non
 
 
 @contextmanager
-def _guarding(token: str) -> Iterator[None]:
+def _guarding(token: str, entry: str) -> Iterator[None]:
     """Have every request of the servers that start in the body pass the guard before it is answered."""
-    serve = sockets.serve
+    serve, entries = sockets.serve, {entry}
 
     def guarded(*arguments: Any, process_request: Answer | None = None, **options: Any) -> Any:
-        return serve(*arguments, process_request=_guard(token, process_request), **options)
+        return serve(*arguments, process_request=_guard(token, entries, process_request), **options)
 
     sockets.serve = guarded  # type: ignore[assignment, misc]
     try:
@@ -131,10 +133,16 @@ def _guarding(token: str) -> Iterator[None]:
         sockets.serve = serve  # type: ignore[misc]
 
 
-def _guard(token: str, answer: Answer | None) -> Answer:
+def _guard(token: str, entries: set[str], answer: Answer | None) -> Answer:
     async def check(connection: ServerConnection, request: Request) -> Response | None:
         port = connection.local_address[1]
         path = path_within(request.path, request.headers, token, port)
+        for entry in entries & set(request.path.split("/")):
+            if path_within(request.path, request.headers, entry, port) == "/":
+                entries.remove(entry)
+                opened = connection.respond(HTTPStatus.FOUND, "")
+                opened.headers["Location"] = f"/{token}/"
+                return opened
         if path is None:
             return connection.respond(HTTPStatus.FORBIDDEN, f"{REFUSED}\n")
         given = None if answer is None else answer(connection, replace(request, path=path))

@@ -63,7 +63,7 @@ class Page:
         self.path, self.scan, self.commands = path, scan, commands
         self.hand = LoopByHand(len(scan.points), loop)
         self._seen = self._stamp()
-        self._token = secrets.token_urlsafe(32)
+        self._token, self._entry = secrets.token_urlsafe(32), secrets.token_urlsafe(32)
         self._job: Job | None = None
         self._one, self.edits = Lock(), RLock()
         self.where: Callable[[], list[str]] = list  # words that say what the boundary is, of a step that is built later
@@ -74,7 +74,7 @@ class Page:
         if tell_close is not None:
             tell_close(self.close)
         try:
-            self.server = start_server(self._token)
+            self.server = start_server(self._token, self._entry)
             self._ending.callback(stop_server, self.server)
             self.drawing = Drawing(self.server, scan.points)
             self._build_head()
@@ -87,6 +87,11 @@ class Page:
     def address(self) -> str:
         """What opens the page, token included."""
         return address(self.server, self._token)
+
+    @property
+    def entrance(self) -> str:
+        """What opens the page once, for those who start a browser: other users of the machine may see it."""
+        return address(self.server, self._entry)
 
     def close(self) -> None:
         """End the job that runs, say so, end the server, and remove the files between steps."""
