@@ -25,6 +25,7 @@ pytestmark = pytest.mark.xdist_group("page")
 
 ACCENT = np.array([0xC8, 0x55, 0x3D])
 PAPER = np.array([0xFB, 0xFA, 0xF7])
+SIDES = (("x", "width"), ("y", "height"))
 
 
 @pytest.fixture(scope="module")
@@ -324,6 +325,25 @@ def test_it_follows_the_system_to_the_dark_and_fits_a_phone(browser, page_file):
     assert page.evaluate("document.documentElement.scrollWidth") == 390
     space, plane = (page.locator(pane).bounding_box() for pane in ("#space", "#plane"))
     assert plane["y"] >= space["y"] + space["height"] - 2
+    context.close()
+
+
+@pytest.mark.parametrize(("swipe", "scrolls"), [((0, -15), True), ((-8, 0), False)])
+def test_a_finger_upwards_scrolls_the_page_and_sideways_turns_the_mesh(browser, page_file, swipe, scrolls):
+    context = browser.new_context(viewport={"width": 390, "height": 844}, has_touch=True, is_mobile=True)
+    page = context.new_page()
+    page.goto(page_file.as_uri())
+    page.wait_for_function("document.body.dataset.ready === 'yes'")
+    box, before = page.locator("#space").bounding_box(), page.evaluate("[...scene.turn]")
+    hand = context.new_cdp_session(page)
+    for step in range(16):
+        place = {way: box[way] + 0.5 * box[size] + step * swipe[k] for k, (way, size) in enumerate(SIDES)}
+        kind = "touchMove" if step else "touchStart"
+        hand.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": [place]})
+        page.wait_for_timeout(16)
+    hand.send("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
+    assert (page.evaluate("scrollY") > 100) == scrolls
+    assert (page.evaluate("[...scene.turn]") == before) == scrolls
     context.close()
 
 

@@ -183,7 +183,7 @@ function nearestTo(arrays, place) {
 
 function handle(scene, arrays) {
   const stage = $("stage"), touches = new Map();
-  let lit = null, isHeld = false, last = null, moved = 0;
+  let lit = null, isHeld = false, last = null, moved = 0, before = null;
   scene.drawn = () => { light(scene, arrays, lit); tellFigure(scene.turn); };
   $("places").append(...content.places.map((place) => {
     const button = made("button", { type: "button", textContent: place.what, className: place.is_doubt ? "doubt" : "" });
@@ -214,7 +214,7 @@ function handle(scene, arrays) {
   stage.addEventListener("pointerdown", (event) => {
     const at = paneAt(event);
     if (!at.which) return;
-    if (touches.size === 0) [stage.dataset.pane, moved] = [at.which, 0];
+    if (touches.size === 0) [stage.dataset.pane, moved, before] = [at.which, 0, [scene.turn, { ...scene.shift }]];
     touches.set(event.pointerId, at);
     stage.setPointerCapture(event.pointerId);
     stage.focus({ preventScroll: true });
@@ -244,6 +244,11 @@ function handle(scene, arrays) {
     const at = touches.get(event.pointerId);
     touches.delete(event.pointerId);
     if (touches.size) last = middle();
+    if (event.type === "pointercancel") {
+      // The browser scrolls with this finger: what it has turned so far was not meant.
+      [scene.turn, scene.shift] = before;
+      scene.draw();
+    }
     if (event.type !== "pointerup" || !at || moved > 4) return;
     lit = scene.pick(at.which, at.x, at.y);
     isHeld = lit !== null;
