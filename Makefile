@@ -56,6 +56,7 @@ figures: .venv/dev  ## draw the pictures of the docs
 	$(BIN)/python benchmarks/gallery.py docs/figures
 	$(BIN)/python benchmarks/boundaries.py --picture docs/figures/boundary.png
 	$(BIN)/python docs/pictures.py docs/figures
+	$(BIN)/python docs/screenshots.py docs/figures
 
 clean:  ## remove everything that make has built
 	rm -rf .venv demo build docs/examples
