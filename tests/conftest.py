@@ -11,14 +11,16 @@ import numpy as np
 import pytest
 import trimesh
 from hypothesis import settings
+from typer.main import get_command
 
 from pointchart import shapes
-from pointchart.cli import main
+from pointchart.cli import app, main
 
 # Compiled kernels make first examples slow; a fixed order makes failures come back.
 settings.register_profile("steady", deadline=None, derandomize=True, max_examples=50)
 settings.load_profile("steady")
 
+COMMANDS = get_command(app)
 SCANS = Path(__file__).parents[2] / "shared" / "data"
 DISCS = {
     "disc": lambda: shapes.disc(300, seed=1),
@@ -65,6 +67,9 @@ def full_disk(monkeypatch):
 @pytest.fixture
 def command_line(monkeypatch, capsys):
     """Run the command line in this process; return its exit code, stdout and stderr."""
+
+    # Typer would build its commands anew for every call.
+    monkeypatch.setattr("pointchart.cli.app", COMMANDS)
 
     def call(*words):
         monkeypatch.setattr(sys, "argv", ["pointchart", *map(str, words)])

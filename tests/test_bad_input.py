@@ -218,19 +218,18 @@ def test_an_annulus_is_refused_with_both_loops_and_four_remedies(refused, folder
 
 
 def test_a_moebius_strip_is_refused(refused, folder):
-    np.save(folder / "scan.npy", shapes.moebius().points)
+    np.save(folder / "scan.npy", shapes.moebius(64, 7).points)
     assert "no disc" in refused("mesh", "scan.npy")
 
 
 @pytest.mark.parametrize(
     ("shape", "loop"),
     [
-        (shapes.moebius(), shapes.moebius().boundary),
         (shapes.moebius(64, 7), shapes.moebius(64, 7).boundary),
         (shapes.torus(64, 24), 64 * np.arange(24)),
         (shapes.torus(64, 24), np.arange(64)),
     ],
-    ids=["Moebius strip", "coarse Moebius strip", "torus cut across", "torus cut along"],
+    ids=["Moebius strip", "torus cut across", "torus cut along"],
 )
 def test_a_surface_that_is_no_disc_is_refused_even_with_a_boundary_given(shape, loop):
     with pytest.raises(PointchartError, match="no disc"):

@@ -758,9 +758,7 @@ def test_a_process_ends_a_bad_run_with_1_and_one_sentence(tmp_path):
     assert [path.name for path in tmp_path.iterdir()] == ["ball.npy"]
 
 
-@pytest.mark.parametrize(
-    ("stage", "delay"), [("prepare", 0.05), ("neighbours", 1.0), ("boundary", 0.5), ("parameters", 0.1)]
-)
+@pytest.mark.parametrize(("stage", "delay"), [("prepare", 0.05), ("boundary", 0.5), ("parameters", 0.1)])
 def test_ctrl_c_ends_a_run_with_130_and_leaves_the_old_file(tmp_path, stage, delay):
     uv = np.random.default_rng(0).random((100_000, 2))
     np.save(tmp_path / "scan.npy", np.c_[uv, 0.1 * np.sin(6 * uv[:, 0]) * np.cos(5 * uv[:, 1])])

@@ -160,7 +160,7 @@ def assert_filled(loops, n):
     assert abs(area(np.c_[uv, 0 * uv[:, 0]], triangles) - expected) < 1e-12 * box
 
 
-@settings(max_examples=40)
+@settings(max_examples=20)
 @given(st.integers(0, 2**32), st.integers(3, 300), st.floats(0.0, 1.5), st.integers(1, 2000))
 def test_stars_of_needles_and_cracks_keep_their_sides(seed, n_corners, tail, n):
     assert_filled([star(seed, max(n_corners, 4), tail)], n)

@@ -49,7 +49,7 @@ def page_file(made, tmp_path_factory):
 @pytest.fixture(scope="module")
 def window(browser, page_file):
     """Open the page from the disk without a network; gather whatever the browser complains of or asks for."""
-    context = browser.new_context(offline=True, viewport={"width": 1200, "height": 900}, color_scheme="light")
+    context = browser.new_context(offline=True, viewport={"width": 1000, "height": 760}, color_scheme="light")
     page, trouble = context.new_page(), []
     page.on("console", lambda message: trouble.append(message.text) if message.type in ("error", "warning") else None)
     page.on("pageerror", lambda error: trouble.append(str(error)))
@@ -127,10 +127,10 @@ def test_a_point_under_the_pointer_lights_up_in_both_views(opened, made):
         opened.wait_for_timeout(60)
         row = int(opened.get_attribute("#readout", "data-vertex"))
         vertex = int(np.flatnonzero(result.rows == row)[0])
-        assert np.linalg.norm(ring(opened, "#space") - at) < 25  # the nearest vertex is not far
-        place = (ring(opened, "#plane") - middle) / radius * [1, -1]
-        assert np.linalg.norm(place - result.uv[vertex]) < 0.012
-        opened.mouse.move(box["x"] + ring(opened, "#plane")[0], box["y"] + ring(opened, "#plane")[1])
+        in_space, in_plane = (ring(opened, pane) for pane in ("#space", "#plane"))
+        assert np.linalg.norm(in_space - at) < 25  # the nearest vertex is not far
+        assert np.linalg.norm((in_plane - middle) / radius * [1, -1] - result.uv[vertex]) < 0.012
+        opened.mouse.move(box["x"] + in_plane[0], box["y"] + in_plane[1])
         opened.wait_for_timeout(60)
         assert int(opened.get_attribute("#readout", "data-vertex")) == row
 
