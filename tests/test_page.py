@@ -269,10 +269,11 @@ def test_keys_colour_turn_and_draw_edges(opened):
 
 def test_the_command_for_a_figure_looks_the_way_the_mesh_is_turned(opened, made):
     page, (points, result, _) = opened, made
+    page.focus("#stage")
     for keys in ("", "ArrowLeft", "ArrowUp ArrowUp", "ArrowRight ArrowDown ArrowDown ArrowDown"):
         for key in keys.split():
             page.keyboard.press(key)
-        page.wait_for_timeout(100)
+        page.evaluate("new Promise((drawn) => requestAnimationFrame(() => requestAnimationFrame(drawn)))")
         *words, view, flag, up = page.locator("#figure pre").inner_text().split()
         assert (words, flag) == (["pointchart", "figure", "mesh", "a.ply", "-o", "a.pdf"], "--up")
         angles = [float(angle) for angle in view.removeprefix("--view=").split(",")]
