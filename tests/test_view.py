@@ -5,7 +5,7 @@ import sys
 import threading
 import time
 from _thread import interrupt_main
-from contextlib import nullcontext
+from contextlib import closing, nullcontext
 from functools import partial
 from http.client import HTTPConnection
 from unittest.mock import MagicMock
@@ -117,7 +117,7 @@ def token_of(page):
 
 def run_as(monkeypatch, program):
     """Have pages run another program than pointchart."""
-    monkeypatch.setattr("pointchart.view.page.Job", partial(Job, program=program))
+    monkeypatch.setattr("pointchart.view.runner.Job", partial(Job, program=program))
 
 
 def mesh_step(page):
@@ -220,6 +220,12 @@ def test_the_address_that_a_browser_is_started_with_opens_the_page_once(bare):
     assert (status, answer.getheader("Location")) == (302, f"/{token_of(bare)}/")
     assert ask(bare, entry)[0] == 403
     assert ask(bare, f"/{token_of(bare)}/")[0] == 200
+
+
+def test_the_address_that_a_browser_is_started_with_is_soon_closed(scan_file, monkeypatch):
+    monkeypatch.setattr(guard, "ENTRY_SECONDS", 0.0)
+    with closing(open_page(scan_file, read_scan(scan_file), commands())) as page:
+        assert ask(page, page.entrance.partition(f":{page.server.get_port()}")[2])[0] == 403
 
 
 def test_a_recording_that_someone_else_has_written_is_not_played(page):

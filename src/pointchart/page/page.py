@@ -28,7 +28,7 @@ from .thin import thin
 
 MOST_POINTS = 200_000  # drawn: what a phone turns smoothly, and some 10 MB
 PAGE_SUFFIXES = (".html", ".htm")
-PARTS = ("page.css", "unpack.js", "scene.js", "page.js")
+PARTS = ("page.css", "unpack.js", "geometry.js", "gl.js", "scene.js", "tell.js", "page.js")
 
 
 @dataclass(frozen=True, slots=True, eq=False)

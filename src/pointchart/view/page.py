@@ -9,7 +9,7 @@ import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
-from threading import Lock, RLock
+from threading import RLock
 from typing import Any
 
 import viser
@@ -20,8 +20,9 @@ from ..typing import Loop
 from .command import Commands, shell_line
 from .drawing import Drawing
 from .guard import address, start_server, stop_server
-from .job import Cancelled, Job
+from .job import Cancelled
 from .loop_by_hand import LoopByHand
+from .runner import Runner
 
 LOG = logging.getLogger(__name__)
 BRAND = (38, 99, 140)
@@ -29,7 +30,6 @@ WIDTH = 440  # pixels of the panel
 CLOUDS = "cloud", "boundary scores"  # what shows points that can be clicked
 LOOP_FILE = "loop.txt"
 RUN = "run"  # folder of the files of a run, which are taken out of it when it has ended well
-ENDED = "**ended**; start pointchart view again"
 LAST = 0.2  # seconds in which the last words reach the browser
 
 Told = Callable[[Callable[[], None]], object]
@@ -53,6 +53,8 @@ class Page:
 
     Attributes
     ----------
+    runner : Runner
+        Runs its commands.
     edits : RLock
         Held by whatever changes the loop, or reads it to run a command.
     """
@@ -62,13 +64,12 @@ class Page:
     ) -> None:
         self.path, self.scan, self.commands = path, scan, commands
         self.hand = LoopByHand(len(scan.points), loop)
-        self._seen = self._stamp()
+        self._seen = _stamp(path)
         self._token, self._entry = secrets.token_urlsafe(32), secrets.token_urlsafe(32)
-        self._job: Job | None = None
-        self._one, self.edits = Lock(), RLock()
+        self.edits = RLock()
         self.where: Callable[[], list[str]] = list  # words that say what the boundary is, of a step that is built later
         self.on_loop: list[Callable[[], None]] = []
-        self._is_ended, self._ending = False, ExitStack()
+        self._ending = ExitStack()
         self.folder = Path(tempfile.mkdtemp(prefix="pointchart-"))
         self._ending.callback(shutil.rmtree, self.folder, ignore_errors=True)
         if tell_close is not None:
@@ -95,9 +96,12 @@ class Page:
 
     def close(self) -> None:
         """End the job that runs, say so, end the server, and remove the files between steps."""
-        self._is_ended = True
-        self.cancel()
         self._ending.close()
+
+    def _say_ended(self) -> None:
+        self.runner.end()
+        self.server.flush()
+        time.sleep(LAST)
 
     def _build_head(self) -> None:
         gui = self.server.gui
@@ -105,10 +109,7 @@ class Page:
         gui.main_panel.dock_right()
         gui.main_panel.set_width(WIDTH)
         gui.set_panel_label(f"pointchart · {self.path.name}")
-        self._status = gui.add_markdown("", visible=False)
-        self._bar: Any = gui.add_progress_bar(0.0, visible=False, animated=True)
-        self._stop = gui.add_button("Cancel", color="red", visible=False, hint="Ends the step at once.")
-        self._stop.on_click(lambda _: self.cancel())
+        self.runner = Runner(gui)
         self.shown: Any = gui.add_dropdown("Show", CLOUDS[:1], hint="What is drawn; each step that has run adds to it.")
         self._groups: dict[str, Callable[[], None]] = {CLOUDS[0]: lambda: self.drawing.show("cloud")}
         self.shown.on_update(lambda _: self._groups[self.shown.value]())
@@ -183,7 +184,7 @@ class Page:
         Cancelled
         """
         names, folder = [out, *(name for _, name in beside)], self.folder / RUN
-        with self._alone():
+        with self.runner.alone():
             for name in names:
                 (self.folder / name).unlink(missing_ok=True)
             self._check_unchanged()
@@ -195,36 +196,18 @@ class Page:
                         write_loop(folder / LOOP_FILE, self.hand.loop)
                     aside = [word for flag, name in beside for word in (flag, str(folder / name))]
                     words = self.words(command, str(folder / out), [*own, *aside], loop_file=str(folder / LOOP_FILE))
-                lines = self._finish(Job(words), command)
+                lines = self.runner.run(words)
                 for name in names:
                     (folder / name).replace(self.folder / name)
             finally:
                 shutil.rmtree(folder, ignore_errors=True)
             yield [self.plain(line) for line in lines], made_by
 
-    def _finish(self, job: Job, command: str) -> list[str]:
-        self._job = job
-        try:
-            if self._is_ended:
-                raise Cancelled
-            self._tell(command, "starting", 0)
-            self._show_progress(True)
-            return job.run(lambda name, share: self._tell(command, name, share))
-        finally:
-            self._show_progress(False)
-            self._job = None
-
     def plain(self, text: str) -> str:
         """Leave the folder between steps out of a text: its files have the names that the user gives them."""
         for folder in (self.folder / RUN, self.folder):
             text = text.replace(f"{folder}{os.sep}", "")
         return text
-
-    def cancel(self) -> None:
-        """End the job that runs, if one does."""
-        job = self._job
-        if job is not None:
-            job.cancel()
 
     def send(self, event: viser.GuiEvent[Any], name: str, write: Callable[[Path], object]) -> None:
         """Write a file in the folder between steps, and have the browser that asks for it download it."""
@@ -276,37 +259,15 @@ class Page:
             show_logo=False, show_share_button=False, brand_color=BRAND, control_width="large", dark_mode=is_dark
         )
 
-    @contextmanager
-    def _alone(self) -> Iterator[None]:
-        if not self._one.acquire(blocking=False):
-            raise InputError("another step is running; wait for its end, or cancel it")
-        try:
-            yield
-        finally:
-            self._one.release()
-
-    def _tell(self, command: str, stage: str, share: int) -> None:
-        self._status.content = f"**{command}**: {stage}"
-        self._bar.value = float(share) if stage == "starting" else max(float(share), self._bar.value)
-
-    def _show_progress(self, is_shown: bool) -> None:
-        self._bar.visible = self._stop.visible = is_shown
-        self._status.visible = is_shown or self._is_ended
-
-    def _say_ended(self) -> None:
-        self._status.content = ENDED
-        self._show_progress(False)
-        self.server.flush()
-        time.sleep(LAST)
-
-    def _stamp(self) -> tuple[int, int]:
-        seen = self.path.stat()
-        return seen.st_mtime_ns, seen.st_size
-
     def _check_unchanged(self) -> None:
         try:
-            is_same = self._stamp() == self._seen
+            is_same = _stamp(self.path) == self._seen
         except OSError:
             is_same = False
         if not is_same:
             raise InputError(f"{self.path} has changed since this page was opened; start pointchart view again")
+
+
+def _stamp(path: Path) -> tuple[int, int]:
+    seen = path.stat()
+    return seen.st_mtime_ns, seen.st_size

@@ -1,0 +1,81 @@
+"""One job at a time, its progress at the head of the page, and a button that cancels it."""
+
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from threading import Lock
+from typing import Any
+
+import viser
+
+from ..errors import InputError
+from .job import Cancelled, Job
+
+ENDED = "**ended**; start pointchart view again"
+
+
+class Runner:
+    """What runs the commands of a page, one after the other.
+
+    Parameters
+    ----------
+    gui : viser.GuiApi
+        The status, a progress bar and a button to cancel are added to it, and are seen while a job runs.
+    """
+
+    def __init__(self, gui: viser.GuiApi) -> None:
+        self._job: Job | None = None
+        self._one, self._is_ended = Lock(), False
+        self._status = gui.add_markdown("", visible=False)
+        self._bar: Any = gui.add_progress_bar(0.0, visible=False, animated=True)
+        self._stop = gui.add_button("Cancel", color="red", visible=False, hint="Ends the step at once.")
+        self._stop.on_click(lambda _: self.cancel())
+
+    @contextmanager
+    def alone(self) -> Iterator[None]:
+        """Let nothing else run during the body.
+
+        Raises
+        ------
+        InputError
+            If something does.
+        """
+        if not self._one.acquire(blocking=False):
+            raise InputError("another step is running; wait for its end, or cancel it")
+        try:
+            yield
+        finally:
+            self._one.release()
+
+    def run(self, words: Sequence[str]) -> list[str]:
+        """Run a command of pointchart to its end, and return what it says; errors are those of `Job`."""
+        job = self._job = Job(words)
+        try:
+            if self._is_ended:
+                raise Cancelled
+            self._tell(words[0], "starting", 0)
+            self._show_progress(True)
+            return job.run(lambda name, share: self._tell(words[0], name, share))
+        finally:
+            self._show_progress(False)
+            self._job = None
+
+    def cancel(self) -> None:
+        """End the job that runs, if one does."""
+        job = self._job
+        if job is not None:
+            job.cancel()
+
+    def end(self) -> None:
+        """End the job that runs, let none begin any more, and say so."""
+        self._is_ended = True
+        self.cancel()
+        self._status.content = ENDED
+        self._show_progress(False)
+
+    def _tell(self, command: str, stage: str, share: int) -> None:
+        self._status.content = f"**{command}**: {stage}"
+        self._bar.value = float(share) if stage == "starting" else max(float(share), self._bar.value)
+
+    def _show_progress(self, is_shown: bool) -> None:
+        self._bar.visible = self._stop.visible = is_shown
+        self._status.visible = is_shown or self._is_ended
