@@ -5,6 +5,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+from contextlib import closing
 from io import BytesIO
 from pathlib import Path
 
@@ -45,34 +46,34 @@ def report(browser, out):
 
 def app(browser, out):
     """Take the app with a line drawn round points of the boundary, and with the mesh."""
-    opened = open_page(Path("demo.ply"), read_scan(Path("demo.ply")), commands())
-    page = browser.new_page(viewport={"width": 1400, "height": 900})
-    page.goto(opened.entrance)
-    page.get_by_role("tab", name="Boundary").click()
-    page.add_style_tag(content=NO_WORD_OF_SOFTWARE)
-    page.get_by_role("button", name="Find the boundary").click()
-    page.get_by_text("a loop of").first.wait_for()
-    box = page.locator("canvas").first.bounding_box()
-    page.keyboard.down("Shift")
-    around = np.linspace(0.0, 2.0 * np.pi, 60, endpoint=False)
-    for turn in around:
-        radius = 0.13 + 0.02 * np.sin(3.0 * turn)
-        page.mouse.move(
-            box["x"] + box["width"] * (0.76 + radius * np.cos(turn)),
-            box["y"] + box["height"] * (0.3 + radius * np.sin(turn)),
-        )
-        page.mouse.down()
-        page.wait_for_timeout(60)
-    take(page, out / "view_boundary.png")
-    page.mouse.up()
-    page.keyboard.up("Shift")
-    page.get_by_role("button", name="Clear polygon").click()
-    page.get_by_role("tab", name="Mesh").click()
-    page.get_by_role("button", name="Make the mesh").click()
-    page.get_by_text("a certified disc").first.wait_for()
-    page.wait_for_timeout(3000)
-    take(page, out / "view_mesh.png")
-    opened.close()
+    with closing(open_page(Path("demo.ply"), read_scan(Path("demo.ply")), commands())) as opened:
+        page = browser.new_page(viewport={"width": 1400, "height": 900})
+        page.goto(opened.entrance)
+        page.get_by_role("tab", name="Boundary").click()
+        page.add_style_tag(content=NO_WORD_OF_SOFTWARE)
+        page.get_by_role("button", name="Find the boundary").click()
+        page.get_by_text("a loop of").first.wait_for()
+        box = page.locator("canvas").first.bounding_box()
+        page.keyboard.down("Shift")
+        around = np.linspace(0.0, 2.0 * np.pi, 60, endpoint=False)
+        for turn in around:
+            radius = 0.13 + 0.02 * np.sin(3.0 * turn)
+            page.mouse.move(
+                box["x"] + box["width"] * (0.76 + radius * np.cos(turn)),
+                box["y"] + box["height"] * (0.3 + radius * np.sin(turn)),
+            )
+            if turn == 0.0:
+                page.mouse.down()
+            page.wait_for_timeout(60)
+        take(page, out / "view_boundary.png")
+        page.mouse.up()
+        page.keyboard.up("Shift")
+        page.get_by_role("button", name="Clear polygon").click()
+        page.get_by_role("tab", name="Mesh").click()
+        page.get_by_role("button", name="Make the mesh").click()
+        page.get_by_text("a certified disc").first.wait_for()
+        page.wait_for_timeout(3000)
+        take(page, out / "view_mesh.png")
 
 
 def main(out):

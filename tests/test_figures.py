@@ -330,6 +330,17 @@ def test_what_is_flat_stands_where_it_does_not_lie(up):
     assert upward(sheet) == upward(sheet, DISC.triangles) == ("y" if up == "z" else "z")
 
 
+def test_a_mesh_whose_triangles_are_not_turned_alike_is_seen_as_its_cloud_is():
+    mixed = DISC.triangles.copy()
+    mixed[::2] = mixed[::2, ::-1]
+    assert upward(DISC.points, mixed) == upward(DISC.points)
+
+
+@pytest.mark.parametrize("triangles", [np.empty((0, 3), int), np.array([[0, 0, 1]])])
+def test_triangles_without_area_tell_nothing(triangles):
+    assert np.allclose(camera(CAP.points, triangles), camera(CAP.points))
+
+
 def test_a_level_scan_is_seen_from_above():
     assert camera(DISC.points)[2, 2] > 0.85
 

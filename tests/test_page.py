@@ -267,7 +267,7 @@ def test_keys_colour_turn_and_draw_edges(opened):
     assert np.abs(again - coloured).max() < 2
 
 
-def test_the_command_for_a_figure_looks_the_way_the_mesh_is_turned(opened, made):
+def test_the_command_for_a_figure_looks_from_the_side_that_is_seen(opened, made):
     page, (points, result, _) = opened, made
     page.focus("#stage")
     for keys in ("", "ArrowLeft", "ArrowUp ArrowUp", "ArrowRight ArrowDown ArrowDown ArrowDown"):

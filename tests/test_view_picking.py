@@ -10,7 +10,7 @@ from pointchart.boundary import is_same_loop, perimeter
 from pointchart.view.around import around_point
 from pointchart.view.frame import Frame, coarser, shades, thinned
 from pointchart.view.loop_by_hand import LoopByHand, dropped, inserted, nearest_of
-from pointchart.view.picking import Camera, in_sight, inside_polygon, nearest_to_ray, project, unproject
+from pointchart.view.picking import Camera, inside_polygon, nearest_to_ray, project, unproject, visible
 
 RELIEF = shapes.relief(400, seed=2)
 CAMERA = Camera(np.array([0.2, -0.1, 4.0]), np.diag([1.0, -1.0, -1.0]), fov=0.8, aspect=1.5)
@@ -88,38 +88,43 @@ def test_an_arrow_holds_the_places_between_its_wings_and_not_its_notch():
         ]
 
 
-@pytest.mark.parametrize("place", [(4, 0, 0), (-1, 2, 3), (0.5, -2.9, 0)])
+@pytest.mark.parametrize("place", [(4, 0, 0), (-1, 2, 3), (0.5, -1.5, 0), (0, 0.3, 1.3), (1.15, 0, 0)])
 def test_of_a_sphere_the_points_before_its_horizon_are_seen(place):
     """The horizon of the unit sphere from a distance d is where the cosine to the line of sight is 1 / d."""
-    height, around = 1.0 - 2.0 * (np.arange(6000) + 0.5) / 6000, np.pi * (1.0 + 5.0**0.5) * np.arange(6000)
+    height, around = 1.0 - 2.0 * (np.arange(20_000) + 0.5) / 20_000, np.pi * (1.0 + 5.0**0.5) * np.arange(20_000)
     flat = np.sqrt(1.0 - height**2)
     sphere = np.column_stack([flat * np.cos(around), flat * np.sin(around), height])
-    distance = float(np.linalg.norm(place))
-    beyond = sphere @ place / distance - 1.0 / distance
-    is_seen = in_sight(sphere, looking_at_the_origin(place), spacing=np.sqrt(4.0 * np.pi / 6000))
-    assert is_seen[beyond > 0.15].all()
-    assert not is_seen[beyond < -0.15].any()
+    distance, some = float(np.linalg.norm(place)), sphere[::40]
+    beyond = some @ place / distance - 1.0 / distance
+    is_seen = visible(sphere, some, np.array(place), spacing=np.sqrt(4.0 * np.pi / 20_000))
+    assert is_seen[beyond > 0.1].all()
+    assert not is_seen[beyond < -0.1].any()
 
 
 @pytest.mark.parametrize("unit", [1e-3, 1.0, 1e4])
-def test_a_sheet_hides_what_is_behind_it_and_nothing_beside_it(unit):
-    near = np.column_stack([shapes.grid(30, 30).points[:, :2] / 29.0 - 0.5, np.full(900, 2.0)])
-    far = np.column_stack([shapes.grid(41, 41).points[:, :2] / 20.0 - 1.0, np.full(1681, 3.0)])
-    camera = Camera(np.zeros(3), np.eye(3), fov=1.2, aspect=1.0)
-    is_seen = in_sight(unit * np.concatenate([near, far]), camera, spacing=unit / 29.0)
-    aside = np.abs(far[:, :2]).max(axis=1) / 3.0 - 0.25
+@pytest.mark.parametrize("near", [0.2, 1.0, 2.0])
+def test_a_sheet_hides_what_is_behind_it_and_nothing_beside_it(unit, near):
+    front = np.column_stack([shapes.grid(30, 30).points[:, :2] / 29.0 - 0.5, np.full(900, 1.0)]) * near
+    back = np.column_stack([shapes.grid(41, 41).points[:, :2] / 10.0 - 2.0, np.full(1681, 3.0)])
+    both = unit * np.concatenate([front, back])
+    is_seen = visible(both, both, np.zeros(3), spacing=unit * near / 29.0)
+    aside = np.abs(back[:, :2]).max(axis=1) / 3.0 - 0.5
     assert is_seen[:900].all()
     assert not is_seen[900:][aside < -0.02].any()
     assert is_seen[900:][aside > 0.05].all()
 
 
-def test_a_surface_seen_at_a_slant_does_not_hide_itself():
-    sheet = shapes.grid(40, 40).points / 39.0 - [0.5, 0.5, 0.0]
-    for slant in (0, 40, 75):
-        down = np.radians(slant)
-        turned = sheet @ np.array([[1, 0, 0], [0, np.cos(down), np.sin(down)], [0, -np.sin(down), np.cos(down)]])
-        camera = Camera(np.array([0, 0, -3.0]), np.eye(3), fov=0.8, aspect=1.5)
-        assert in_sight(turned, camera, spacing=1 / 39.0).all()
+@pytest.mark.parametrize("slant", [0, 40, 75])
+def test_a_surface_seen_at_a_slant_does_not_hide_itself(slant):
+    down = np.radians(slant)
+    sheet = (shapes.grid(40, 40).points / 39.0 - [0.5, 0.5, 0.0]) @ np.array(
+        [[1, 0, 0], [0, np.cos(down), np.sin(down)], [0, -np.sin(down), np.cos(down)]]
+    )
+    assert visible(sheet, sheet, np.array([0, 0, -3.0]), spacing=1 / 39.0).all()
+
+
+def test_of_no_places_none_is_seen():
+    assert visible(RELIEF.points, np.empty((0, 3)), np.zeros(3), spacing=0.1).shape == (0,)
 
 
 @given(arrays(float, (6, 2), elements=st.floats(0.0, 1.0)), st.floats(0.1, 100.0))

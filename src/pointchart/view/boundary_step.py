@@ -1,6 +1,7 @@
 """The step of the boundary: found, picked by hand, saved."""
 
 from collections.abc import Callable
+from threading import Lock
 from typing import Any
 
 import numpy as np
@@ -11,15 +12,16 @@ from ..boundary import perimeter, reversed_loop
 from ..errors import InputError, PointchartError
 from ..gaps import place_of
 from ..io import read_loop, read_scan, write_loop
-from ..typing import UV, Floats, Indices
+from ..typing import UV, Floats, Indices, Points
 from .loop_by_hand import dropped, inserted, nearest_of
 from .page import CLOUDS, Page
-from .picking import Camera, in_sight, inside_polygon, project, unproject
+from .picking import Camera, inside_polygon, project, unproject, visible
 from .step import Step
 from .words import said_html
 
 FOUND, LOOPS, LOADED = "loop-found.txt", "loops.ply", "loaded.txt"
 BOUNDARY_SCORE = 0.5
+NEAR = 0.05  # depth from which on points count for where the polygon is drawn
 CLOSER = 0.9  # share of the way to the nearest point at which the polygon is drawn
 INSERT, DROP, OUTER = "inserts it in the loop", "drops the nearest loop point", "names the outer loop"
 LABELS = (("--outer", "Outer loop at"), ("--component", "Component"))
@@ -46,6 +48,7 @@ class BoundaryStep:
         self._others: Indices = np.empty(0, np.int64)
         self._scores: Floats | None = None
         self._polygon: tuple[Camera, UV] | None = None
+        self._one = Lock()  # held while the polygon is another than the one that is drawn
         self.step = Step(
             page,
             "boundary",
@@ -117,8 +120,7 @@ class BoundaryStep:
                 rows = self._rows_inside(hand.loop if what == LEAVE else self._likely())
                 points = self._page.scan.points
                 hand.change(dropped(hand.loop, rows) if what == LEAVE else inserted(points, hand.loop, rows))
-            self._polygon = None
-            self._page.drawing.draw_polygon(np.empty((0, 3)))
+            self._set_polygon(None, np.empty((0, 3)))
             self._page.loop_changed()
 
     def _likely(self) -> Indices:
@@ -132,8 +134,9 @@ class BoundaryStep:
         if self._polygon is None or len(self._polygon[1]) < 3:
             raise InputError("no polygon has been drawn; drag with the shift key round some boundary points")
         (camera, polygon), drawing = self._polygon, self._page.drawing
-        is_seen = in_sight(drawing.places, camera, spacing=drawing.spacing)[rows]
-        inside = rows[is_seen & inside_polygon(project(drawing.places[rows], camera), polygon)]
+        inside = rows[inside_polygon(project(drawing.places[rows], camera), polygon)]
+        cloud, places = drawing.places[drawing.drawn], drawing.places[inside]
+        inside = inside[visible(cloud, places, camera.position, spacing=drawing.spacing)]
         if not len(inside):
             raise InputError(
                 f"none of {len(rows)} boundary points is seen inside the polygon; draw it round some of them"
@@ -157,11 +160,16 @@ class BoundaryStep:
         self._page.loop_changed()
 
     def _draw_polygon(self, camera: Camera, polygon: UV) -> None:
-        if self._page.shows_cloud:
-            self._polygon = camera, polygon
-            depth = (self._page.drawing.places - camera.position) @ camera.axes[2]
-            ahead = depth[depth > 0.0].min(initial=np.inf)
-            self._page.drawing.draw_polygon(unproject(polygon, camera, CLOSER * ahead))
+        drawing = self._page.drawing
+        depth = camera.depths(drawing.places[drawing.drawn])
+        ahead = depth[depth > NEAR].min(initial=np.inf)
+        if self._page.shows_cloud and np.isfinite(ahead):
+            self._set_polygon((camera, polygon), unproject(polygon, camera, CLOSER * ahead))
+
+    def _set_polygon(self, polygon: tuple[Camera, UV] | None, corners: Points) -> None:
+        with self._one:
+            self._polygon = polygon
+            self._page.drawing.draw_polygon(corners)
 
     def _show(self) -> None:
         loop, points = self._page.hand.loop, self._page.scan.points

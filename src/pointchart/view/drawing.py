@@ -72,6 +72,8 @@ class Drawing:
                 line[:] = [event.start_screen_pos]
             line.append(event.end_screen_pos)
             tell(camera_of(event.client), np.array(line))
+            if event.phase == "end":
+                del lines[event.client_id]
 
         around.on_drag(modifier="shift")(grow)
 

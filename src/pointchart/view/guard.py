@@ -2,6 +2,7 @@
 
 import io
 import secrets
+import time
 from collections.abc import Awaitable, Callable, Iterator
 from contextlib import contextmanager, redirect_stdout
 from dataclasses import replace
@@ -19,6 +20,7 @@ from websockets.http11 import Request, Response
 from ..errors import InputError
 
 HOST = "127.0.0.1"
+ENTRY_SECONDS = 60.0
 REFUSED = "this page opens only by the address that pointchart printed in the terminal, which carries a token"
 KEPT_IN = {
     "Referrer-Policy": "no-referrer",
@@ -46,7 +48,8 @@ def start_server(token: str, entry: str) -> LocalServer:
     token : str
         Without it, nothing is answered.
     entry : str
-        Stands for the token once, so that who starts a browser need not name it: all users see the words of a process.
+        Stands for the token once within `ENTRY_SECONDS`, so that who starts a browser need not name it: all users see
+        the words of a process. One who is faster than the browser gets in; then the browser is refused, which is seen.
 
     Returns
     -------
@@ -121,7 +124,7 @@ def path_within(path: str, headers: Headers, token: str, port: int) -> str | Non
 @contextmanager
 def _guarding(token: str, entry: str) -> Iterator[None]:
     """Have every request of the servers that start in the body pass the guard before it is answered."""
-    serve, entries = sockets.serve, {entry}
+    serve, entries = sockets.serve, {entry: time.monotonic() + ENTRY_SECONDS}
 
     def guarded(*arguments: Any, process_request: Answer | None = None, **options: Any) -> Any:
         return serve(*arguments, process_request=_guard(token, entries, process_request), **options)
@@ -133,13 +136,13 @@ def _guarding(token: str, entry: str) -> Iterator[None]:
         sockets.serve = serve  # type: ignore[misc]
 
 
-def _guard(token: str, entries: set[str], answer: Answer | None) -> Answer:
+def _guard(token: str, entries: dict[str, float], answer: Answer | None) -> Answer:
     async def check(connection: ServerConnection, request: Request) -> Response | None:
         port = connection.local_address[1]
         path = path_within(request.path, request.headers, token, port)
-        for entry in entries & set(request.path.split("/")):
-            if path_within(request.path, request.headers, entry, port) == "/":
-                entries.remove(entry)
+        for entry, end in list(entries.items()):
+            if path_within(request.path, request.headers, entry, port) == "/" and time.monotonic() < end:
+                del entries[entry]
                 opened = connection.respond(HTTPStatus.FOUND, "")
                 opened.headers["Location"] = f"/{token}/"
                 return opened

@@ -4,14 +4,12 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.ndimage import minimum_filter
 
 from ..typing import UV, Floats, Mask, Points
 
 AIM = 0.012  # radians: how far beside a point a click may be, some ten pixels
 DEEP = 4.0  # times as far as that behind the first point hit, others are hit as well, as on a slanted surface
-STEEP = 9.0  # cells behind the front one a point is still in sight: where one and a half aside are seen at 80 degrees
-MOST_CELLS = 2000  # a side of the picture that tells what is in front
+STEEP = 7.0  # spacings before a point where its line of sight has left a surface that is seen at 80 degrees
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -34,6 +32,15 @@ class Camera:
     fov: float
     aspect: float
 
+    @property
+    def half(self) -> Floats:
+        """Half the width and height of what is seen, one ahead, (2,)."""
+        return np.asarray(np.tan(self.fov / 2.0) * np.array([self.aspect, 1.0]))
+
+    def depths(self, points: Points) -> Floats:
+        """Return how far ahead points are, (n,)."""
+        return np.asarray((points - self.position) @ self.axes[2])
+
 
 def project(points: Points, camera: Camera) -> UV:
     """Return where points are seen: (0, 0) is the upper left corner, (1, 1) the lower right; nan if behind.
@@ -53,10 +60,9 @@ def project(points: Points, camera: Camera) -> UV:
     >>> project(np.array([[0.0, 0, 5], [2, 1, 1], [0, 0, -1]]), ahead).tolist()
     [[0.5, 0.5], [1.0, 1.0], [nan, nan]]
     """
-    right, down, depth = camera.axes @ (points - camera.position).T
-    depth = np.where(depth > 0.0, depth, np.nan)
-    half = np.tan(camera.fov / 2.0) * np.array([camera.aspect, 1.0])
-    return np.asarray(0.5 + np.column_stack([right, down]) / (2.0 * half * depth[:, None]))
+    depth = camera.depths(points)[:, None]
+    aside = (points - camera.position) @ camera.axes[:2].T
+    return np.asarray(0.5 + aside / (2.0 * camera.half * np.where(depth > 0.0, depth, np.nan)))
 
 
 def unproject(places: UV, camera: Camera, depth: float) -> Points:
@@ -78,43 +84,45 @@ def unproject(places: UV, camera: Camera, depth: float) -> Points:
     >>> unproject(np.array([[0.5, 0.5], [1.0, 1.0]]), ahead, 5.0).round(9).tolist()
     [[0.0, 0.0, 5.0], [10.0, 5.0, 5.0]]
     """
-    half = np.tan(camera.fov / 2.0) * np.array([camera.aspect, 1.0])
-    rays = np.column_stack([(2.0 * places - 1.0) * half, np.ones(len(places))])
+    rays = np.column_stack([(2.0 * places - 1.0) * camera.half, np.ones(len(places))])
     return np.asarray(camera.position + depth * (rays @ camera.axes))
 
 
-def in_sight(points: Points, camera: Camera, *, spacing: float) -> Mask:
-    """Tell which points are seen, by a picture of how far away the nearest ones are.
+def visible(points: Points, places: Points, eye: Floats, *, spacing: float) -> Mask:
+    """Tell which points of a cloud are seen from a place: those whose lines of sight pass no others closely.
 
     Parameters
     ----------
     points : (n, 3) array
-    camera : Camera
+        What hides.
+    places : (k, 3) array
+        What may be seen; they may be points of the cloud.
+    eye : (3,) array
     spacing : float
-        Of the points: what lies closer together hides what is behind it.
+        Of the points: a line of sight is cut off where one is as close to it.
 
     Returns
     -------
-    (n,) bool array, False outside the picture.
+    (k,) bool array.
 
     Examples
     --------
-    >>> ahead = Camera(np.zeros(3), np.eye(3), fov=np.pi / 2, aspect=1.0)
-    >>> in_sight(np.array([[0.0, 0, 5], [0, 0, 9], [3, 0, 9], [0, 0, -1]]), ahead, spacing=0.1).tolist()
-    [True, False, True, False]
+    >>> wall = np.array([[0.0, 0, 5], [0.1, 0, 5], [0, 0, 9], [3, 0, 9]])
+    >>> visible(wall, wall[[0, 2, 3]], np.zeros(3), spacing=0.1).tolist()
+    [True, False, True]
     """
-    places, depth = project(points, camera), (points - camera.position) @ camera.axes[2]
-    is_seen: Mask = np.all((places >= 0.0) & (places < 1.0), axis=1)
-    if not is_seen.any():
-        return is_seen
-    depth = depth[is_seen]
-    cell = max(spacing / (2.0 * np.tan(camera.fov / 2.0) * float(np.median(depth))), 1.0 / MOST_CELLS)
-    across, down = np.minimum(places[is_seen] * [camera.aspect, 1.0] / cell, MOST_CELLS).astype(np.int64).T
-    front = np.full((across.max() + 1, down.max() + 1), np.inf)
-    np.minimum.at(front, (across, down), depth)
-    front = minimum_filter(front, 3, mode="nearest")
-    steep = STEEP * cell * 2.0 * np.tan(camera.fov / 2.0)
-    is_seen[is_seen] = depth <= front[across, down] * (1.0 + steep)
+    from scipy.spatial import cKDTree
+
+    tree, ahead = cKDTree(points), places - eye
+    length = np.linalg.norm(ahead, axis=1)
+    ahead = ahead / np.maximum(length, 1e-300)[:, None]
+    is_seen: Mask = np.ones(len(places), np.bool_)
+    # No line of sight is in the cloud for longer than its diagonal.
+    farthest = min(float(length.max(initial=0.0)), float(np.linalg.norm(np.ptp(points, axis=0))))
+    for before in np.arange(STEEP * spacing, farthest, spacing):
+        asked = np.flatnonzero(is_seen & (length > before))
+        passed = places[asked] - before * ahead[asked]
+        is_seen[asked] = ~np.isfinite(tree.query(passed, distance_upper_bound=spacing)[0])
     return is_seen
 
 
