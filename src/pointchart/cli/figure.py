@@ -59,11 +59,14 @@ def figure(
         typer.Option(
             "--view",
             metavar="TURN,TILT",
-            help="Degrees to walk around the scan and to look down on it; by default onto its mean plane.",
+            help="Degrees to walk around the scan and look down on it; by default onto its mean plane or broad side.",
         ),
     ] = None,
     up: Annotated[
-        Axis | None, typer.Option("--up", help="Axis of the file that is upwards; by default z, or y seen along z.")
+        Axis | None,
+        typer.Option(
+            "--up", help="Axis of the file that is upwards; by default that of a mesh's opening, z, or y seen along z."
+        ),
     ] = None,
     width: Annotated[
         float, typer.Option("--width", min=20.0, max=1000.0, help="In mm: 85 is a column, 170 a page.")
