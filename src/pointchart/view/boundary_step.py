@@ -131,6 +131,8 @@ class BoundaryStep:
 
     def _rows_inside(self, rows: Indices) -> Indices:
         """Return those of some points that were seen inside the polygon when it was drawn."""
+        if not self._page.shows_cloud:
+            raise InputError("the cloud is not shown, nor a polygon on it; set Show to cloud")
         if self._polygon is None or len(self._polygon[1]) < 3:
             raise InputError("no polygon has been drawn; drag with the shift key round some boundary points")
         (camera, polygon), drawing = self._polygon, self._page.drawing
