@@ -45,7 +45,7 @@ def report(browser, out):
 
 
 def app(browser, out):
-    """Take the app with a line drawn round points of the boundary, and with the mesh."""
+    """Take the app with points of the boundary that are selected, and with the mesh."""
     with closing(open_page(Path("demo.ply"), read_scan(Path("demo.ply")), commands())) as opened:
         page = browser.new_page(viewport={"width": 1400, "height": 900})
         page.goto(opened.entrance)
@@ -59,16 +59,18 @@ def app(browser, out):
         for turn in around:
             radius = 0.13 + 0.02 * np.sin(3.0 * turn)
             page.mouse.move(
-                box["x"] + box["width"] * (0.76 + radius * np.cos(turn)),
-                box["y"] + box["height"] * (0.3 + radius * np.sin(turn)),
+                box["x"] + box["width"] * (0.5 + radius * np.cos(turn)),
+                box["y"] + box["height"] * (0.17 + radius * np.sin(turn)),
             )
             if turn == 0.0:
                 page.mouse.down()
             page.wait_for_timeout(60)
-        take(page, out / "view_boundary.png")
         page.mouse.up()
         page.keyboard.up("Shift")
-        page.get_by_role("button", name="Clear polygon").click()
+        page.get_by_text("selected,").wait_for()
+        page.wait_for_timeout(1000)
+        take(page, out / "view_boundary.png")
+        page.get_by_role("button", name="Clear").click()
         page.get_by_role("tab", name="Mesh").click()
         page.get_by_role("button", name="Make the mesh").click()
         page.get_by_text("a certified disc").first.wait_for()

@@ -1,3 +1,4 @@
+import asyncio
 import shlex
 import signal
 import socket
@@ -5,9 +6,11 @@ import sys
 import threading
 import time
 from _thread import interrupt_main
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import closing, nullcontext
 from functools import partial
 from http.client import HTTPConnection
+from types import SimpleNamespace
 from unittest.mock import MagicMock
 
 import numpy as np
@@ -21,16 +24,16 @@ from pointchart.boundary import is_same_loop, reversed_loop
 from pointchart.cli import aside
 from pointchart.cli.view import commands
 from pointchart.io import read_loop, write_loop
-from pointchart.view import boundary_step, cloud_steps, guard, job, result_steps
+from pointchart.view import boundary_step, cloud_steps, guard, job, pace, result_steps
 from pointchart.view.app import open_page
 from pointchart.view.around import Around
 from pointchart.view.boundary_step import DROP, INSERT, OUTER
 from pointchart.view.cloud_steps import SHOW
-from pointchart.view.drawing import camera_of
 from pointchart.view.job import Cancelled, Job
-from pointchart.view.loop_by_hand import LoopByHand
-from pointchart.view.picking import inside_polygon, project
+from pointchart.view.loop_by_hand import LoopByHand, inserted
+from pointchart.view.picking import Camera, inside_polygon, project
 from pointchart.view.step import Step
+from pointchart.view.words import OUTDATED
 
 # One process has the page and the browser open for all of them.
 pytestmark = pytest.mark.xdist_group("view")
@@ -48,8 +51,14 @@ STILL = """document.addEventListener("DOMContentLoaded", () => {
     const rule = "*, *::before, *::after { transition: none !important; animation: none !important; }";
     document.head.insertAdjacentHTML("beforeend", `<style>${rule}</style>`);
 });"""
+SQUARE = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
+IN_FRONT = Camera(np.array([0.0, 0.0, 9.0]), np.array([[1.0, 0, 0], [0, -1, 0], [0, 0, -1]]), fov=1.0, aspect=1.0)
 SLEEPS = sys.executable, "-c", "import sys, time; print('stage sleep 5', file=sys.stderr, flush=True); time.sleep(600)"
-WRITES = sys.executable, "-c", "import sys; open(sys.argv[sys.argv.index('-o') + 1], 'w').write('made')"
+WRITES = (
+    sys.executable,
+    "-c",
+    "import sys; open(sys.argv[sys.argv.index('-o') + 1], 'w').write('made'); print('[ok] made', file=sys.stderr)",
+)
 FAILS = sys.executable, "-c", "raise SystemExit('pointchart: it is refused')"
 
 
@@ -72,7 +81,7 @@ def page(scan_file):
 @pytest.fixture(scope="module")
 def opened(browser, page):
     """Return the page in a browser, with what it writes to its console."""
-    with browser.new_context(viewport={"width": 860, "height": 560}, device_scale_factor=0.5) as context:
+    with browser.new_context(viewport={"width": 880, "height": 560}, device_scale_factor=0.5) as context:
         context.add_init_script(STILL)
         shown = context.new_page()
         shown.set_default_timeout(SECONDS)
@@ -99,6 +108,14 @@ def window(opened, page):
     page.look_at("cloud")
     page.loop_changed()
     return opened
+
+
+@pytest.fixture
+def by_hand(bare):
+    """Return the step of the boundary on a page that no browser has opened, and what it says."""
+    said, step = [], boundary_step.BoundaryStep(bare)
+    bare.notify = lambda title, sentence, **_: said.append(sentence)
+    return step, said
 
 
 def ask(page, path, **headers):
@@ -136,13 +153,14 @@ def drag_with_shift(window, page, corners):
         until(lambda at=corner: np.abs(last_corner(page) - at).max() < 0.01)
     window.mouse.up()
     window.keyboard.up("Shift")
+    until(lambda: not page.server.scene.get_handle_by_name("/cloud/polygon"))
 
 
 def last_corner(page):
     """Return where in the picture the last corner of the polygon is seen."""
     (client,) = page.server.get_clients().values()
     drawn = page.server.scene.get_handle_by_name("/cloud/polygon")
-    return np.full(2, np.inf) if drawn is None else project(drawn.points[-1, :1], camera_of(client))[0]
+    return np.full(2, np.inf) if drawn is None else project(drawn.points[-1, :1], page.drawing.camera(client))[0]
 
 
 def line_shown(window):
@@ -169,7 +187,7 @@ def click_point(window, page, row):
     """Click where a point is seen."""
     (client,) = page.server.get_clients().values()
     box = window.locator("canvas").first.bounding_box()
-    x, y = project(page.drawing.places[row : row + 1], camera_of(client))[0]
+    x, y = project(page.drawing.places[row : row + 1], page.drawing.camera(client))[0]
     window.mouse.click(box["x"] + x * box["width"], box["y"] + y * box["height"], delay=60)
 
 
@@ -389,16 +407,20 @@ def test_the_boundary_is_found_and_points_in_a_polygon_that_is_dragged_are_dropp
     until(lambda: is_same_loop(page.hand.loop, TRUE) and not page.hand.is_own)
     page.look_at("boundary scores")
     (client,) = page.server.get_clients().values()
-    before = project(page.drawing.places[TRUE], camera_of(client))
+    before = project(page.drawing.places[TRUE], page.drawing.camera(client))
     triangle = np.array([[0.02, 0.02], [0.02, 0.98], [0.6, 0.5]])
     within = TRUE[inside_polygon(before, triangle)]
     assert 3 < len(within) < len(TRUE) // 2
-    for what, gone in (("Drop inside", within), ("Add inside", [])):
+    for what, gone in (("Drop", within), ("Add", [])):
         drag_with_shift(window, page, triangle)
+        window.get_by_text(
+            f"{len(within)} selected, {len(within) if what == 'Drop' else 0} of them in the loop"
+        ).wait_for()
         press(window, what)
-        until(lambda: not page.server.scene.get_handle_by_name("/cloud/polygon"))
+        until(lambda: not page.server.scene.get_handle_by_name("/cloud/selected"))
         assert set(TRUE) - set(page.hand.loop) == set(gone)
-    assert np.array_equal(project(page.drawing.places[TRUE], camera_of(client)), before), "the camera has stayed"
+    after = project(page.drawing.places[TRUE], page.drawing.camera(client))
+    assert np.array_equal(after, before), "the camera has stayed"
     assert is_same_loop(page.hand.loop, TRUE)
     press(window, "Reverse")
     until(lambda: is_same_loop(page.hand.loop, reversed_loop(TRUE)))
@@ -406,11 +428,55 @@ def test_the_boundary_is_found_and_points_in_a_polygon_that_is_dragged_are_dropp
     until(lambda: is_same_loop(page.hand.loop, TRUE))
 
 
-def test_without_a_polygon_nothing_is_selected_and_the_page_says_so(window, page):
+@pytest.mark.parametrize("name", ["relief", "cap of 150 degrees", "tube", "rolled sheet", "face"])
+def test_boundary_points_of_no_order_become_the_boundary(disc_shape, name):
+    shape = disc_shape(name)
+    loop = inserted(shape.points, np.empty(0, int), np.sort(shape.boundary))
+    assert is_same_loop(loop, shape.boundary) or is_same_loop(loop, reversed_loop(shape.boundary))
+
+
+@pytest.mark.parametrize(
+    ("what", "sentence"),
+    [
+        ("Drop", "no points are selected; drag with the shift key round some boundary points"),
+        ("Undo", "there is no loop before this one"),
+    ],
+)
+def test_a_change_that_changes_nothing_says_why(window, page, what, sentence):
     tab(window, "Boundary")
-    press(window, "Drop inside")
-    window.get_by_text("no polygon has been drawn; drag with the shift key round some boundary points").wait_for()
+    press(window, what)
+    window.get_by_text(sentence).wait_for()
     assert np.array_equal(page.hand.loop, WRONG)
+
+
+def test_points_are_selected_while_the_cloud_is_shown_and_change_the_loop_once(bare, by_hand):
+    step, said = by_hand
+    step._select(IN_FRONT, SQUARE)
+    step._edit_selected("Add")
+    assert said.pop() == f"all {len(WRONG)} selected points are in the loop already"
+    bare.hand.change(np.array([], int))
+    step._edit_selected("Drop")
+    assert said.pop() == f"none of the {len(WRONG)} selected points is in the loop"
+    step._edit_selected("Add")
+    step._edit_selected("Add")
+    assert said == ["no points are selected; drag with the shift key round some boundary points"]
+    assert set(bare.hand.loop) == set(WRONG)
+    bare.add_view("mesh", lambda: None)
+    step._select(IN_FRONT, SQUARE)
+    assert said.pop() == "the cloud is not shown, so that no points of it are selected; set Show to cloud"
+    step._edit("Reverse")
+    assert bare.shows_cloud, "a loop is not changed out of sight"
+
+
+def test_an_axis_that_is_chosen_is_upwards_and_clicks_mean_the_same_points(bare):
+    drawing, places = bare.drawing, bare.drawing.places.copy()
+    for up in "xyz":
+        drawing.stand(up)
+        axes, facing = drawing.frame.axes, drawing.frame.facing
+        assert np.allclose(axes @ np.eye(3)["xyz".index(up)], [0, 0, 1])
+        assert np.array_equal(drawing.places, places)
+        ray = SimpleNamespace(ray_origin=tuple(axes @ places[INNER] + facing), ray_direction=tuple(-facing))
+        assert drawing.pointed_at(ray) == INNER
 
 
 def test_a_click_names_the_outer_loop_and_no_word_stands_twice_on_the_command_line(window, page, scan_file):
@@ -493,9 +559,13 @@ def test_a_result_is_exported_only_while_the_words_and_the_loop_that_made_it_sta
         (lambda: bare.hand.change(CROSSED), bare.hand.undo),
     ):
         change()
+        bare.loop_changed()
+        assert OUTDATED in step._said.content
         with pytest.raises(InputError, match="made by other options or another loop than those that stand now; make"):
             step.made("mesh", "make it")
         back()
+        bare.loop_changed()
+        assert OUTDATED not in step._said.content
         assert step.made("mesh", "make it").exists()
 
 
@@ -535,9 +605,30 @@ def test_a_run_reads_the_loop_from_a_file_that_the_line_shown_does_not_tell_of(b
 
 def test_points_keep_their_size_when_the_cloud_gets_other_colours(bare):
     bare.drawing.size_points(2.0)
-    size = bare.server.scene.get_handle_by_name("/cloud/points").point_size
+    size = bare.server.scene.get_handle_by_name("/cloud/fine/points").point_size
     bare.drawing.color_cloud(np.ones((N, 3)))
-    assert bare.server.scene.get_handle_by_name("/cloud/points").point_size == size
+    assert bare.server.scene.get_handle_by_name("/cloud/fine/points").point_size == size
+
+
+def test_a_slow_browser_draws_less_until_its_camera_rests(bare, monkeypatch):
+    told, drawing = [], bare.drawing
+    monkeypatch.setattr(pace, "REST", 0.05)
+    monkeypatch.setattr(pace, "SLOW", 0.001)
+
+    async def turn():
+        watched = pace.Pace(lambda is_coarse: (told.append(is_coarse), drawing.coarsen(is_coarse)))
+        for _ in range(2 * pace.LATEST):
+            await watched.moved(None)
+            await asyncio.sleep(0.004)
+        assert not any(frame.visible for frame in drawing._fine)
+        await asyncio.sleep(0.2)
+
+    # Playwright has a loop of its own in the thread of the tests.
+    with ThreadPoolExecutor(1) as beside:
+        beside.submit(lambda: asyncio.run(turn())).result(SECONDS)
+    assert told == [True, False]
+    assert all(frame.visible for frame in drawing._fine)
+    assert not any(frame.visible for frame in drawing._coarse)
 
 
 def test_an_error_that_nobody_foresaw_is_shown_and_logged(bare, caplog):

@@ -11,7 +11,6 @@ from .boundary_step import BoundaryStep
 from .cloud_steps import SHOW, NeighbourhoodStep, add_cloud
 from .command import Commands
 from .page import Page, Told
-from .picking import nearest_to_ray
 from .result_steps import MeshStep, SurfaceStep, UVStep
 
 Click = Callable[[int, viser.SceneClickEvent], object]
@@ -69,7 +68,6 @@ def _listen(page: Page, chosen: Callable[[], str], clicks: dict[str, Click]) -> 
         if not page.shows_cloud:
             return
         with page.reporting("click"):
-            drawing = page.drawing
-            row = nearest_to_ray(drawing.places, event.ray_origin, event.ray_direction, reach=drawing.spacing)
+            row = page.drawing.pointed_at(event)
             if row is not None:
                 clicks[chosen()](row, event)

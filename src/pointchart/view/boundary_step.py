@@ -1,7 +1,7 @@
 """The step of the boundary: found, picked by hand, saved."""
 
-from collections.abc import Callable
-from threading import Lock
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from typing import Any
 
 import numpy as np
@@ -12,8 +12,8 @@ from ..boundary import perimeter, reversed_loop
 from ..errors import InputError, PointchartError
 from ..gaps import place_of
 from ..io import read_loop, read_scan, write_loop
-from ..typing import UV, Floats, Indices, Points
-from .loop_by_hand import dropped, inserted, nearest_of
+from ..typing import UV, Floats, Indices
+from .loop_by_hand import LoopByHand, dropped, inserted, nearest_of
 from .page import CLOUDS, Page
 from .picking import Camera, inside_polygon, project, unproject, visible
 from .step import Step
@@ -26,11 +26,12 @@ CLOSER = 0.9  # share of the way to the nearest point at which the polygon is dr
 INSERT, DROP, OUTER = "inserts it in the loop", "drops the nearest loop point", "names the outer loop"
 LABELS = (("--outer", "Outer loop at"), ("--component", "Component"))
 UNDO, REVERSE, RESTART, EMPTY = "Undo", "Reverse", "Found loop", "Empty"
-TAKE, LEAVE, CLEAR = "Add inside", "Drop inside", "Clear polygon"
+TAKE, LEAVE, CLEAR = "Add", "Drop", "Clear"
 HOW = (
-    "“A click” above says what a click on the cloud does: insert or drop a point. Shift + drag draws a polygon: points "
-    "seen inside are added, where they score as boundary points, or dropped."
+    "“A click” above says what a click on the cloud does: insert or drop a point. Shift + drag draws a polygon: it "
+    "selects points seen inside that are in the loop or score as boundary points, to be added or dropped."
 )
+NONE: Indices = np.empty(0, np.int64)
 
 
 class BoundaryStep:
@@ -45,10 +46,8 @@ class BoundaryStep:
         gui = page.server.gui
         self._page = page
         self._found: Indices | None = None
-        self._others: Indices = np.empty(0, np.int64)
+        self._others = self._selected = NONE
         self._scores: Floats | None = None
-        self._polygon: tuple[Camera, UV] | None = None
-        self._one = Lock()  # held while the polygon is another than the one that is drawn
         self.step = Step(
             page,
             "boundary",
@@ -66,11 +65,11 @@ class BoundaryStep:
         gui.add_html(said_html([HOW]))
         edits = gui.add_button_group("By hand", (UNDO, REVERSE, RESTART, EMPTY))
         edits.on_click(lambda event: self._edit(event.target.value))
-        area = gui.add_button_group("Polygon", (TAKE, LEAVE, CLEAR), hint="What is behind the cloud is left alone.")
-        area.on_click(lambda event: self._edit_inside(event.target.value))
+        chosen = gui.add_button_group("Selected", (TAKE, LEAVE, CLEAR), hint="Points that a polygon was drawn round.")
+        chosen.on_click(lambda event: self._edit_selected(event.target.value))
         self._add_files()
         page.on_loop.append(self._show)
-        page.drawing.on_line(self._draw_polygon)
+        page.drawing.on_line(self._draw_polygon, self._select)
 
     @property
     def clicks(self) -> dict[str, Callable[[int, viser.SceneClickEvent], object]]:
@@ -99,63 +98,50 @@ class BoundaryStep:
         self._page.drawing.show("cloud")
 
     def _edit(self, what: str) -> None:
-        hand = self._page.hand
-        with self._page.editing():
+        with self._editing() as hand:
             if what == UNDO:
                 hand.undo()
             elif what == REVERSE:
                 hand.change(reversed_loop(hand.loop))
             elif what == EMPTY:
-                hand.change(np.empty(0, np.int64))
+                hand.change(NONE)
             elif self._found is None:
                 raise InputError("no boundary has been found yet; find it first")
             else:
                 hand.begin(self._found)
-            self._page.loop_changed()
 
-    def _edit_inside(self, what: str) -> None:
-        hand = self._page.hand
-        with self._page.editing():
-            if what != CLEAR:
-                rows = self._rows_inside(hand.loop if what == LEAVE else self._likely())
-                points = self._page.scan.points
-                hand.change(dropped(hand.loop, rows) if what == LEAVE else inserted(points, hand.loop, rows))
-            self._set_polygon(None, np.empty((0, 3)))
-            self._page.loop_changed()
+    def _edit_selected(self, what: str) -> None:
+        with self._editing() as hand:
+            if what != CLEAR and not len(self._selected):
+                raise InputError("no points are selected; drag with the shift key round some boundary points")
+            in_loop = np.isin(self._selected, hand.loop)
+            if what == TAKE:
+                if in_loop.all():
+                    raise InputError(f"all {len(in_loop)} selected points are in the loop already")
+                hand.change(inserted(self._page.scan.points, hand.loop, self._selected))
+            elif what == LEAVE:
+                if not in_loop.any():
+                    raise InputError(f"none of the {len(in_loop)} selected points is in the loop")
+                hand.change(dropped(hand.loop, self._selected))
+            self._selected = NONE
 
-    def _likely(self) -> Indices:
-        """Return the points that score as boundary points."""
-        if self._scores is None:
-            raise InputError("points have no scores yet, which tell boundary points; find the boundary first")
-        return np.flatnonzero(self._scores >= BOUNDARY_SCORE)
-
-    def _rows_inside(self, rows: Indices) -> Indices:
-        """Return those of some points that were seen inside the polygon when it was drawn."""
-        if not self._page.shows_cloud:
-            raise InputError("the cloud is not shown, nor a polygon on it; set Show to cloud")
-        if self._polygon is None or len(self._polygon[1]) < 3:
-            raise InputError("no polygon has been drawn; drag with the shift key round some boundary points")
-        (camera, polygon), drawing = self._polygon, self._page.drawing
-        inside = rows[inside_polygon(project(drawing.places[rows], camera), polygon)]
-        cloud, places = drawing.places[drawing.drawn], drawing.places[inside]
-        inside = inside[visible(cloud, places, camera.position, spacing=drawing.spacing)]
-        if not len(inside):
-            raise InputError(
-                f"none of {len(rows)} boundary points is seen inside the polygon; draw it round some of them"
-            )
-        return inside
+    @contextmanager
+    def _editing(self) -> Iterator[LoopByHand]:
+        """Let changes of the loop come one after the other, where they can be seen, and show their errors."""
+        page = self._page
+        with page.editing():
+            yield page.hand
+            if not page.shows_cloud:
+                page.look_at(CLOUDS[0])
+            page.loop_changed()
 
     def _insert(self, row: int, _: viser.SceneClickEvent) -> None:
-        hand = self._page.hand
-        with self._page.editing():
+        with self._editing() as hand:
             hand.change(inserted(self._page.scan.points, hand.loop, row))
-            self._page.loop_changed()
 
     def _drop(self, row: int, _: viser.SceneClickEvent) -> None:
-        hand = self._page.hand
-        with self._page.editing():
+        with self._editing() as hand:
             hand.change(dropped(hand.loop, nearest_of(self._page.scan.points, hand.loop, row)))
-            self._page.loop_changed()
 
     def _name_outer(self, row: int, _: viser.SceneClickEvent) -> None:
         self.step.controls.set("--outer", place_of(self._page.scan.points, row).strip("()").replace(" ", ""))
@@ -166,19 +152,37 @@ class BoundaryStep:
         depth = camera.depths(drawing.places[drawing.drawn])
         ahead = depth[depth > NEAR].min(initial=np.inf)
         if self._page.shows_cloud and np.isfinite(ahead):
-            self._set_polygon((camera, polygon), unproject(polygon, camera, CLOSER * ahead))
+            drawing.draw_polygon(unproject(polygon, camera, CLOSER * ahead))
 
-    def _set_polygon(self, polygon: tuple[Camera, UV] | None, corners: Points) -> None:
-        with self._one:
-            self._polygon = polygon
-            self._page.drawing.draw_polygon(corners)
+    def _select(self, camera: Camera, polygon: UV) -> None:
+        with self._editing() as hand:
+            self._page.drawing.draw_polygon(np.empty((0, 3)))
+            if not self._page.shows_cloud:
+                raise InputError("the cloud is not shown, so that no points of it are selected; set Show to cloud")
+            scored = NONE if self._scores is None else np.flatnonzero(self._scores >= BOUNDARY_SCORE)
+            rows = np.union1d(hand.loop, scored)
+            if not len(rows):
+                raise InputError("there are no boundary points to select yet; find the boundary first")
+            drawing = self._page.drawing
+            inside = rows[inside_polygon(project(drawing.places[rows], camera), polygon)]
+            if not len(inside):
+                raise InputError(
+                    f"none of {len(rows)} boundary points is inside the polygon; draw it round some of them"
+                )
+            cloud, places = drawing.places[drawing.drawn], drawing.places[inside]
+            self._selected = inside[visible(cloud, places, camera.position, spacing=drawing.spacing)]
+            if not len(self._selected):
+                raise InputError(f"the cloud hides all {len(inside)} boundary points inside the polygon; turn it")
 
     def _show(self) -> None:
         loop, points = self._page.hand.loop, self._page.scan.points
         kind = "by hand" if self._page.hand.is_own else "found"
-        text = f"{kind}: {len(loop)} points, {perimeter(points, loop):.4g} long" if len(loop) else "no loop yet"
-        self._state.content = said_html([text])
+        lines = [f"{kind}: {len(loop)} points, {perimeter(points, loop):.4g} long" if len(loop) else "no loop yet"]
+        if len(self._selected):
+            lines.append(f"{len(self._selected)} selected, {np.isin(self._selected, loop).sum()} of them in the loop")
+        self._state.content = said_html(lines)
         self._page.drawing.draw_loop(loop, self._others)
+        self._page.drawing.draw_selected(self._selected)
 
     def _add_files(self) -> None:
         gui, page = self._page.server.gui, self._page
@@ -194,11 +198,10 @@ class BoundaryStep:
 
         @load.on_upload
         def _(_: viser.GuiEvent[Any]) -> None:
-            with page.editing():
+            with self._editing() as hand:
                 path = page.folder / LOADED
                 path.write_bytes(load.value.content)
                 try:
-                    page.hand.change(check_loop(read_loop(path), len(page.scan.points)))
+                    hand.change(check_loop(read_loop(path), len(page.scan.points)))
                 except PointchartError as failure:
                     raise PointchartError(str(failure).replace(str(path), load.value.name)) from None
-                page.loop_changed()

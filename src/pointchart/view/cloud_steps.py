@@ -5,9 +5,10 @@ from threading import Lock
 import numpy as np
 import viser
 
+from ..camera import AXES
 from ..errors import InputError
 from .around import around_point
-from .controls import Controls
+from .controls import CHOSEN, Controls
 from .page import Page
 from .words import command_html, refused_html, said_html
 
@@ -30,6 +31,8 @@ def add_cloud(page: Page) -> None:
         lines.append(f"{len(page.scan.triangles):,} triangles of the file are not looked at")
     gui = page.server.gui
     gui.add_html(said_html(lines))
+    up = gui.add_dropdown("Upwards", (CHOSEN, *AXES), hint="The axis of the file that is upwards on the page.")
+    up.on_update(lambda _: page.drawing.stand(None if up.value == CHOSEN else up.value))
     size = gui.add_slider("Point size", 0.2, 3.0, 0.1, 1.0)
     size.on_update(lambda _: page.drawing.size_points(size.value))
     dark = gui.add_checkbox("Dark page", False)

@@ -1,22 +1,33 @@
 """What the page shows in space: the cloud, a neighbourhood, loops, parameters, mesh and surface."""
 
+import asyncio
 from collections.abc import Callable
+from functools import partial
 
 import numpy as np
 import viser
 
+from ..neighbors import nearest
 from ..picture import STONE
+from ..stars import normals
 from ..typing import UV, Floats, Indices, Loop, Points, Triangles
 from .around import Around
 from .frame import Frame, coarser, shades, thinned
-from .picking import Camera
+from .pace import Pace
+from .picking import Camera, nearest_to_ray
 
 MOST_POINTS, MOST_TRIANGLES = 300_000, 400_000
+MOST_EDGED = 100_000  # triangles; the edges of more make one dark plane
+FEW_POINTS, FEW_TRIANGLES = 20_000, 20_000  # while the camera moves, where a browser is slow
 FAR = 4000.0  # beyond what cameras draw, but not beyond what is under the pointer
+NEAREST = 12  # points whose plane tells how a point is lit
 SPACING = 0.5  # diameter of a drawn point over the spacing of those drawn
 
 LOOP, OTHER, LINK, PALE, EDGE = (200, 85, 61), (226, 160, 60), (24, 78, 119), (190, 214, 230), (34, 48, 60)
-GROUPS = ("cloud", "plane", "mesh", "flat", "surface")
+FINE, COARSE = "fine", "coarse"  # levels of detail
+IN_SPACE = ("cloud", "mesh", "surface")
+GROUPS = (*IN_SPACE, "plane", "flat")
+DISTANCE, MIDDLE, UPWARDS = 4.7, (0.0, 0.0, 0.0), (0.0, 0.0, 1.0)  # of the camera, what it looks at, and what is up
 
 
 class Drawing:
@@ -30,18 +41,26 @@ class Drawing:
     """
 
     def __init__(self, server: viser.ViserServer, points: Points) -> None:
-        self._scene = server.scene
+        self._server, self._scene = server, server.scene
         self._light_up()
         self.frame = Frame(points)
         self.places = self.frame.places(points)
         self.drawn = thinned(len(points), MOST_POINTS)
+        self._few = thinned(len(self.drawn), FEW_POINTS)
         area = float(np.prod(np.sort(np.ptp(self.places, axis=0))[1:]))
         self.spacing = max(float(np.sqrt(area / len(self.drawn))), 1e-4)
-        self._light, self._size = shades(self.places[self.drawn]), 1.0
+        some = self.places[self.drawn].astype(np.float64)
+        self._normals = normals(some, nearest(some, NEAREST)).astype(np.float32)
+        self._colors: Floats | None = None
+        self._size = 1.0
         self._groups = {name: self._scene.add_frame(f"/{name}", show_axes=False) for name in GROUPS}
+        self._fine, self._coarse = (
+            [self._scene.add_frame(f"/{name}/{level}", show_axes=False) for name in GROUPS] for level in (FINE, COARSE)
+        )
         self.show("cloud")
-        self.color_cloud(None)
-        self._look(server)
+        self.coarsen(False)
+        server.on_client_connect(self._keep_pace)
+        self._turn()
 
     def _light_up(self) -> None:
         """Light meshes from the front; what viser has for it is twenty times as slow without a graphics card."""
@@ -51,14 +70,52 @@ class Drawing:
         for name, place, intensity in (("front", (-3.0, -5.0, 4.0), 2.2), ("back", (3.0, 5.0, -1.0), 1.2)):
             self._scene.add_light_directional(f"/light/{name}", position=place, intensity=intensity)
 
-    def _look(self, server: viser.ViserServer) -> None:
-        server.initial_camera.position = tuple(4.7 * self.frame.facing)
-        server.initial_camera.look_at = (0.0, 0.0, 0.0)
-        server.initial_camera.up = (0.0, 0.0, 1.0)
-        server.initial_camera.fov = np.deg2rad(45.0)
+    def stand(self, up: str | None) -> None:
+        """Turn an axis of the file upwards, or the one that is chosen by default, and look at the scan anew."""
+        self.frame.stand(up)
+        self._turn()
+        for client in self._server.get_clients().values():
+            client.camera.position = tuple(DISTANCE * self.frame.facing)
+            client.camera.look_at = MIDDLE
+            client.camera.up_direction = UPWARDS
 
-    def on_line(self, tell: Callable[[Camera, UV], object]) -> None:
-        """Have every line that is drawn with the shift key told, as places of the picture, (k, 2), while it grows."""
+    def _turn(self) -> None:
+        from scipy.spatial.transform import Rotation
+
+        turn = np.roll(Rotation.from_matrix(self.frame.axes).as_quat(), 1)
+        for name in IN_SPACE:
+            self._groups[name].wxyz = turn
+        self._light = shades(self._normals @ self.frame.axes.T)
+        self.color_cloud(self._colors)
+        look = self._server.initial_camera
+        look.position, look.look_at, look.up = tuple(DISTANCE * self.frame.facing), MIDDLE, UPWARDS
+        look.fov = np.deg2rad(45.0)
+
+    def camera(self, client: viser.ClientHandle) -> Camera:
+        """Return the camera of a browser, as it stands to the places of the scan."""
+        from scipy.spatial.transform import Rotation
+
+        seen = client.camera
+        turn = Rotation.from_quat(np.roll(seen.wxyz, -1)).as_matrix()
+        axes = self.frame.axes
+        return Camera(seen.position @ axes, np.asarray(turn.T @ axes), float(seen.fov), float(seen.aspect))
+
+    def pointed_at(self, event: viser.SceneClickEvent) -> int | None:
+        """Return the point of the scan that a click means, None if there is none."""
+        axes = self.frame.axes
+        origin, direction = np.asarray(event.ray_origin) @ axes, np.asarray(event.ray_direction) @ axes
+        return nearest_to_ray(self.places, origin, direction, reach=self.spacing)
+
+    def on_line(self, tell: Callable[[Camera, UV], object], tell_end: Callable[[Camera, UV], object]) -> None:
+        """Have every line that is drawn with the shift key told, as places of the picture, (k, 2).
+
+        Parameters
+        ----------
+        tell : callable
+            Called while the line grows; it must not take long.
+        tell_end : callable
+            Called with the whole line, aside.
+        """
         lines: dict[int, list[tuple[float, float]]] = {}
         # Only what is under the pointer can be dragged: something that is, wherever it is, and is never drawn.
         corners = FAR * np.array([[1, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1]], dtype=np.float32)
@@ -71,9 +128,12 @@ class Drawing:
             if event.phase == "start":
                 line[:] = [event.start_screen_pos]
             line.append(event.end_screen_pos)
-            tell(camera_of(event.client), np.array(line))
+            camera, polygon = self.camera(event.client), np.array(line)
             if event.phase == "end":
                 del lines[event.client_id]
+                asyncio.get_running_loop().run_in_executor(None, tell_end, camera, polygon)
+            else:
+                tell(camera, polygon)
 
         around.on_drag(modifier="shift")(grow)
 
@@ -82,17 +142,26 @@ class Drawing:
         for name, group in self._groups.items():
             group.visible = name == shown
 
+    def _keep_pace(self, client: viser.ClientHandle) -> None:
+        client.camera.on_update(Pace(self.coarsen).moved)
+
+    def coarsen(self, is_coarse: bool) -> None:
+        """Draw less of what there is, or all of it again."""
+        for frames, is_shown in ((self._fine, not is_coarse), (self._coarse, is_coarse)):
+            for frame in frames:
+                frame.visible = is_shown
+
     def color_cloud(self, colors: Floats | None) -> None:
         """Draw the cloud in colours of all its points, (n, 3) from 0 to 1, or as of stone."""
+        self._colors = colors
         base = STONE if colors is None else colors[self.drawn]
-        self._cloud = self._points(
-            "/cloud/points", self.places[self.drawn], self._light[:, None] * base, larger=self._size
-        )
+        self._cloud = self._levels("cloud", self.places[self.drawn], self._light[:, None] * base, larger=self._size)
 
     def size_points(self, share: float) -> None:
         """Draw the points of the cloud larger or smaller."""
+        for handle in self._cloud:
+            handle.point_size *= share / self._size
         self._size = share
-        self._cloud.point_size = share * SPACING * self.spacing
 
     def draw_loop(self, loop: Loop, others: Indices) -> None:
         """Draw the loop as it is now, and the points of other loops that were found."""
@@ -138,11 +207,17 @@ class Drawing:
         if len(corners):
             self._lines("/cloud/polygon", np.stack([corners, np.roll(corners, -1, axis=0)], axis=1), LINK, 2.0)
 
+    def draw_selected(self, rows: Indices) -> None:
+        """Draw the points that are selected."""
+        self._clear("/cloud/selected")
+        if len(rows):
+            self._points("/cloud/selected", self.places[rows], np.array(LINK) / 255.0, larger=2.6)
+
     def draw_plane(self, uv: UV, loop: Loop) -> None:
         """Draw the parameters of the points, and the boundary in the plane."""
         self._clear("/plane/loop")
         flat = self.frame.plane(uv)
-        self._points("/plane/points", flat[self.drawn], self._light[:, None] * STONE, larger=0.8)
+        self._levels("plane", flat[self.drawn], self._light[:, None] * STONE, larger=0.8)
         if len(loop) > 1:
             place = flat[loop]
             self._lines("/plane/loop", np.stack([place, np.roll(place, -1, axis=0)], axis=1), LOOP, 2.0)
@@ -154,7 +229,14 @@ class Drawing:
 
     def draw_surface(self, points: Points, triangles: Triangles) -> None:
         """Draw the mesh of a surface, without its edges."""
-        self._mesh("surface", self.frame.places(points), triangles, is_smooth=True)
+        self._mesh("surface", self.frame.places(points), triangles, has_edges=False)
+
+    def _levels(self, group: str, places: Floats, colors: Floats, *, larger: float) -> list[viser.PointCloudHandle]:
+        few, wider = self._few, np.sqrt(len(places) / len(self._few))
+        return [
+            self._points(f"/{group}/{FINE}/points", places, colors, larger=larger),
+            self._points(f"/{group}/{COARSE}/points", places[few], colors[few], larger=wider * larger),
+        ]
 
     def _points(self, name: str, places: Floats, colors: Floats, *, larger: float = 1.0) -> viser.PointCloudHandle:
         return self._scene.add_point_cloud(
@@ -176,33 +258,15 @@ class Drawing:
         at = float(place[0]), float(place[1]), float(place[2])
         self._scene.add_icosphere(name, radius, color, position=at, opacity=opacity, cast_shadow=False)
 
-    def _mesh(self, group: str, places: Floats, triangles: Triangles, *, is_smooth: bool = False) -> None:
-        self._clear(f"/{group}/edges")
-        places, triangles = coarser(places, triangles, MOST_TRIANGLES)
-        self._scene.add_mesh_simple(
-            f"/{group}/faces", places, triangles, color=STONE, side="double", cast_shadow=False, receive_shadow=False
-        )
-        if not is_smooth:
-            self._scene.add_mesh_simple(
-                f"/{group}/edges",
-                places,
-                triangles,
-                color=EDGE,
-                wireframe=True,
-                opacity=0.35,
-                cast_shadow=False,
-                receive_shadow=False,
-            )
+    def _mesh(self, group: str, places: Floats, triangles: Triangles, *, has_edges: bool = True) -> None:
+        add = partial(self._scene.add_mesh_simple, side="double", cast_shadow=False, receive_shadow=False)
+        fine, few = (coarser(places, triangles, most) for most in (MOST_TRIANGLES, FEW_TRIANGLES))
+        add(f"/{group}/{FINE}/faces", *fine, color=STONE)
+        add(f"/{group}/{COARSE}/faces", *few, color=STONE)
+        self._clear(f"/{group}/{FINE}/edges")
+        if has_edges and len(triangles) <= MOST_EDGED:
+            add(f"/{group}/{FINE}/edges", *fine, color=EDGE, wireframe=True, opacity=0.35)
 
     def _clear(self, *names: str) -> None:
         for name in names:
             self._scene.remove_by_name(name)
-
-
-def camera_of(client: viser.ClientHandle) -> Camera:
-    """Return the camera of the browser."""
-    from scipy.spatial.transform import Rotation
-
-    seen = client.camera
-    turn = Rotation.from_quat(np.roll(seen.wxyz, -1)).as_matrix()
-    return Camera(np.asarray(seen.position), np.asarray(turn.T), float(seen.fov), float(seen.aspect))

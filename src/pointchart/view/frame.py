@@ -3,40 +3,54 @@
 import numpy as np
 
 from ..camera import camera, upright_axes, upward
-from ..neighbors import nearest
-from ..stars import normals
 from ..typing import Floats, Indices, Points, Triangles
 
 SIZE = 4.0  # diagonal of the scan on the page
+LIGHT = np.array([-0.45, -0.7, 0.55])  # direction towards it
 
 
 class Frame:
-    """The way from the scan to the page, in whose space z is up.
+    """The way from the scan to the page: to places about the middle of it, and turned so that an axis is upwards.
 
     Parameters
     ----------
     points : (n, 3) array
+
+    Attributes
+    ----------
+    scale : float
+        Length on the page of a step of one in the file.
+    axes : (3, 3) float64 array
+        Its rows are the directions, in the file, to the right, away from the viewer and upwards on the page.
+    facing : (3,) float64 array
+        Direction on the page from which the scan is looked at.
 
     Examples
     --------
     >>> sheet = np.array([[7.0, 7, 0], [9, 7, 0], [9, 9, 0], [7, 9, 0]])
     >>> frame = Frame(sheet)
     >>> [round(float(x), 2) for x in frame.places(sheet)[2]], [round(float(x), 2) for x in frame.facing]
-    ([1.41, 0.0, 1.41], [0.16, -0.89, 0.42])
+    ([1.41, 1.41, 0.0], [0.16, -0.89, 0.42])
+    >>> (frame.axes + 0.0).tolist()
+    [[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]]
     """
 
     def __init__(self, points: Points) -> None:
         low, high = points.min(axis=0), points.max(axis=0)
         self._middle = (low + high) / 2.0
         self.scale = SIZE / float(np.linalg.norm(high - low))
-        some = points[:: max(1, len(points) // 10_000)]
-        right, above, towards = upright_axes(upward(some))
-        self._axes = np.stack([right, -towards, above])
-        self.facing = self._axes @ camera(some)[2]
+        self._some = points[:: max(1, len(points) // 10_000)]
+        self.stand()
+
+    def stand(self, up: str | None = None) -> None:
+        """Turn an axis of the file upwards, "x", "y" or "z"; by default that of `upward`."""
+        right, above, towards = upright_axes(upward(self._some) if up is None else up)
+        self.axes = np.stack([right, -towards, above])
+        self.facing = self.axes @ camera(self._some, up=up)[2]
 
     def places(self, points: Points) -> Floats:
-        """Return where points are on the page, (n, 3) float32."""
-        return np.asarray((((points - self._middle) * self.scale) @ self._axes.T).astype(np.float32))
+        """Return where points are before they are turned, (n, 3) float32."""
+        return np.asarray(((points - self._middle) * self.scale).astype(np.float32))
 
     def plane(self, uv: Floats) -> Floats:
         """Return where parameters are on the page, upright and facing the viewer, (n, 3) float32."""
@@ -92,9 +106,12 @@ def coarser(places: Floats, triangles: Triangles, most: int) -> tuple[Floats, Tr
     return places[first], kept
 
 
-def shades(places: Floats) -> Floats:
-    """Light points as if they were a surface seen from the front, above and left, (n,), from 0 to 1."""
-    points = places.astype(np.float64)
-    upright = normals(points, nearest(points, 12))
-    light = np.array([-0.45, -0.7, 0.55]) / np.linalg.norm([-0.45, -0.7, 0.55])
-    return np.asarray(0.35 + 0.65 * np.abs(upright @ light))
+def shades(upright: Floats) -> Floats:
+    """Light a surface from the front, above and left, by its normals either way, (n, 3); (n,), from 0 to 1.
+
+    Examples
+    --------
+    >>> shades(np.array([[-0.45, -0.7, 0.55], [0.7, -0.45, 0.0]]) / np.array([[0.9975], [1.0]])).round(2).tolist()
+    [1.0, 0.35]
+    """
+    return np.asarray(0.35 + 0.65 * np.abs(upright @ (LIGHT / np.linalg.norm(LIGHT))))

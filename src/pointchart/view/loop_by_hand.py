@@ -9,7 +9,10 @@ from ..typing import Indices, Loop, Points
 
 
 def inserted(points: Points, loop: Loop, indices: ArrayLike) -> Loop:
-    """Insert points into a loop, one by one where they lengthen it least, the nearest to it first.
+    """Insert points into a loop, one by one where they lengthen it least.
+
+    The nearest to the loop come first; if there is no loop, those that are farthest from all before (farthest insertion
+    of Rosenkrantz, Stearns and Lewis, 1977), which finds the large shape before the small.
 
     Parameters
     ----------
@@ -29,16 +32,27 @@ def inserted(points: Points, loop: Loop, indices: ArrayLike) -> Loop:
     [0, 4, 1, 2, 3]
     """
     new = np.setdiff1d(np.atleast_1d(np.asarray(indices, dtype=np.int64)), loop)
-    if len(loop):
-        from scipy.spatial import cKDTree
-
-        new = new[np.argsort(cKDTree(points[loop]).query(points[new])[0], kind="stable")]
     longer = np.asarray(loop, dtype=np.int64)
-    for index in new:
+    for index in _by_distance(points, loop, new) if len(loop) else _farthest_first(points, new):
         place, steps = points[longer], np.linalg.norm(points[longer] - points[index], axis=1)
         cost = steps + np.roll(steps, -1) - np.linalg.norm(np.roll(place, -1, axis=0) - place, axis=1)
         longer = np.insert(longer, int(np.argmin(cost)) + 1 if len(longer) > 1 else len(longer), index)
     return longer
+
+
+def _by_distance(points: Points, loop: Loop, new: Indices) -> Indices:
+    from scipy.spatial import cKDTree
+
+    return np.asarray(new[np.argsort(cKDTree(points[loop]).query(points[new])[0], kind="stable")])
+
+
+def _farthest_first(points: Points, new: Indices) -> Indices:
+    place, away, order = points[new], np.full(len(new), np.inf), np.empty_like(new)
+    for position in range(len(new)):
+        farthest = int(np.argmax(away))
+        order[position] = new[farthest]
+        away = np.minimum(away, np.linalg.norm(place - place[farthest], axis=1))
+    return order
 
 
 def dropped(loop: Loop, indices: ArrayLike) -> Loop:
@@ -116,6 +130,13 @@ class LoopByHand:
             self._past.append((np.asarray(loop, dtype=np.int64), True))
 
     def undo(self) -> None:
-        """Go back to the loop before, if there is one."""
-        if len(self._past) > 1:
-            self._past.pop()
+        """Go back to the loop before.
+
+        Raises
+        ------
+        InputError
+            If there is none.
+        """
+        if len(self._past) == 1:
+            raise InputError("there is no loop before this one")
+        self._past.pop()

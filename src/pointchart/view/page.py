@@ -26,7 +26,7 @@ from .runner import Runner
 
 LOG = logging.getLogger(__name__)
 BRAND = (38, 99, 140)
-WIDTH = 440  # pixels of the panel
+WIDTH = 460  # pixels of the panel
 CLOUDS = "cloud", "boundary scores"  # what shows points that can be clicked
 LOOP_FILE = "loop.txt"
 RUN = "run"  # folder of the files of a run, which are taken out of it when it has ended well

@@ -7,6 +7,7 @@ from html import escape
 BOX = "margin:.4em .75em;border-radius:4px;font-size:.85em;line-height:1.45;overflow-wrap:anywhere"
 FRAMED = f"{BOX};padding:.5em .7em"
 OTHER_LOOP = re.compile(r"another loop of \d+ points?, (\S+) long")
+OUTDATED = "What follows was made by other options or another loop than those that stand now; run it again."
 MARKS = {"[ok] ": ("✓", "#2f9e5b"), "[!!] ": ("✗", "#d0432c"), "[--] ": ("·", "inherit")}
 
 
@@ -42,6 +43,17 @@ def said_html(lines: Sequence[str]) -> str:
         sign = f'<span style="color:{color};font-weight:700;display:inline-block;width:1.2em">{mark}</span>'
         rows.append(f"<div>{sign if mark else ''}{escape(text)}</div>")
     return f'<div class="said" style="{BOX}">{"".join(rows)}</div>' if rows else ""
+
+
+def outdated_html(lines: Sequence[str]) -> str:
+    """Show what a command said of what is no longer asked for.
+
+    Examples
+    --------
+    >>> "opacity" in outdated_html(["[ok] one part"])
+    True
+    """
+    return f'<div class="outdated">{said_html([OUTDATED])}<div style="opacity:.5">{said_html(lines)}</div></div>'
 
 
 def shortened(lines: Sequence[str], most: int = 5) -> list[str]:
