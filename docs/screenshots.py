@@ -20,6 +20,7 @@ from pointchart.view.job import PROGRAM
 
 # Drawn in software, so that every machine gives the same picture.
 DRAWN = ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist"]
+DRAWING = 3000  # milliseconds in which all that has been sent is drawn
 NO_WORD_OF_SOFTWARE = ".mantine-Notifications-root { display: none }"
 
 
@@ -39,7 +40,7 @@ def report(browser, out):
     page.select_option("#shade", "stretch")
     box = page.locator("#space").bounding_box()
     page.mouse.move(box["x"] + 0.46 * box["width"], box["y"] + 0.6 * box["height"])
-    page.wait_for_timeout(1000)
+    page.wait_for_timeout(DRAWING)
     take(page, out / "report.png")
     page.close()
 
@@ -68,13 +69,13 @@ def app(browser, out):
         page.mouse.up()
         page.keyboard.up("Shift")
         page.get_by_text("selected,").wait_for()
-        page.wait_for_timeout(1000)
+        page.wait_for_timeout(DRAWING)
         take(page, out / "view_boundary.png")
-        page.get_by_role("button", name="Clear").click()
+        page.get_by_role("button", name="Clear", exact=True).click()
         page.get_by_role("tab", name="Mesh").click()
         page.get_by_role("button", name="Make the mesh").click()
         page.get_by_text("a certified disc").first.wait_for()
-        page.wait_for_timeout(3000)
+        page.wait_for_timeout(DRAWING)
         take(page, out / "view_mesh.png")
 
 

@@ -1,4 +1,3 @@
-import asyncio
 import shlex
 import signal
 import socket
@@ -6,7 +5,6 @@ import sys
 import threading
 import time
 from _thread import interrupt_main
-from concurrent.futures import ThreadPoolExecutor
 from contextlib import closing, nullcontext
 from functools import partial
 from http.client import HTTPConnection
@@ -29,11 +27,12 @@ from pointchart.view.app import open_page
 from pointchart.view.around import Around
 from pointchart.view.boundary_step import DROP, INSERT, OUTER
 from pointchart.view.cloud_steps import SHOW
+from pointchart.view.drawing import DISTANCE
 from pointchart.view.job import Cancelled, Job
-from pointchart.view.loop_by_hand import LoopByHand, inserted
+from pointchart.view.loop_by_hand import LoopByHand
 from pointchart.view.picking import Camera, inside_polygon, project
 from pointchart.view.step import Step
-from pointchart.view.words import OUTDATED
+from pointchart.view.words import OTHERWISE
 
 # One process has the page and the browser open for all of them.
 pytestmark = pytest.mark.xdist_group("view")
@@ -48,10 +47,12 @@ HARMLESS = ("THREE.Clock", "not on your GPU")
 SECONDS = 40_000  # milliseconds that a busy machine may take
 MADE = "mesh-made.ply"
 STILL = """document.addEventListener("DOMContentLoaded", () => {
-    const rule = "*, *::before, *::after { transition: none !important; animation: none !important; }";
+    const rule = "*, *::before, *::after { transition: none !important; animation: none !important; }"
+        + ".mantine-Notifications-root * { pointer-events: none !important; }";
     document.head.insertAdjacentHTML("beforeend", `<style>${rule}</style>`);
 });"""
-SQUARE = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
+ALL = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
+LEFT = ALL * [0.501, 1.0]
 IN_FRONT = Camera(np.array([0.0, 0.0, 9.0]), np.array([[1.0, 0, 0], [0, -1, 0], [0, 0, -1]]), fov=1.0, aspect=1.0)
 SLEEPS = sys.executable, "-c", "import sys, time; print('stage sleep 5', file=sys.stderr, flush=True); time.sleep(600)"
 WRITES = (
@@ -112,10 +113,12 @@ def window(opened, page):
 
 @pytest.fixture
 def by_hand(bare):
-    """Return the step of the boundary on a page that no browser has opened, and what it says."""
-    said, step = [], boundary_step.BoundaryStep(bare)
+    """Return a page that no browser has opened, its step of the boundary, and what it says."""
+    said = []
+    bare.on_loop.clear()
+    step = boundary_step.BoundaryStep(bare)
     bare.notify = lambda title, sentence, **_: said.append(sentence)
-    return step, said
+    return bare, step, said
 
 
 def ask(page, path, **headers):
@@ -428,13 +431,6 @@ def test_the_boundary_is_found_and_points_in_a_polygon_that_is_dragged_are_dropp
     until(lambda: is_same_loop(page.hand.loop, TRUE))
 
 
-@pytest.mark.parametrize("name", ["relief", "cap of 150 degrees", "tube", "rolled sheet", "face"])
-def test_boundary_points_of_no_order_become_the_boundary(disc_shape, name):
-    shape = disc_shape(name)
-    loop = inserted(shape.points, np.empty(0, int), np.sort(shape.boundary))
-    assert is_same_loop(loop, shape.boundary) or is_same_loop(loop, reversed_loop(shape.boundary))
-
-
 @pytest.mark.parametrize(
     ("what", "sentence"),
     [
@@ -442,41 +438,116 @@ def test_boundary_points_of_no_order_become_the_boundary(disc_shape, name):
         ("Undo", "there is no loop before this one"),
     ],
 )
-def test_a_change_that_changes_nothing_says_why(window, page, what, sentence):
+def test_what_there_is_nothing_for_says_so(window, page, what, sentence):
     tab(window, "Boundary")
     press(window, what)
     window.get_by_text(sentence).wait_for()
     assert np.array_equal(page.hand.loop, WRONG)
 
 
-def test_points_are_selected_while_the_cloud_is_shown_and_change_the_loop_once(bare, by_hand):
-    step, said = by_hand
-    step._select(IN_FRONT, SQUARE)
-    step._edit_selected("Add")
-    assert said.pop() == f"all {len(WRONG)} selected points are in the loop already"
-    bare.hand.change(np.array([], int))
+def test_of_half_the_picture_that_half_of_the_loop_is_selected_dropped_and_added(by_hand):
+    page, step, said = by_hand
+    page.hand = LoopByHand(N, TRUE)
+    half = set(TRUE[page.drawing.places[TRUE, 0] < 1e-6])
+    step._select(IN_FRONT, LEFT)
+    assert set(step._selected) == half
     step._edit_selected("Drop")
-    assert said.pop() == f"none of the {len(WRONG)} selected points is in the loop"
+    assert set(page.hand.loop) == set(TRUE) - half
+    step._edit("Undo")
+    page.hand.change(np.array([], int))
+    step._scores = np.isin(np.arange(N), TRUE).astype(float)
+    step._select(IN_FRONT, LEFT)
     step._edit_selected("Add")
-    step._edit_selected("Add")
-    assert said == ["no points are selected; drag with the shift key round some boundary points"]
-    assert set(bare.hand.loop) == set(WRONG)
-    bare.add_view("mesh", lambda: None)
-    step._select(IN_FRONT, SQUARE)
+    assert set(page.hand.loop) == half
+    assert said == []
+
+
+@pytest.mark.parametrize(
+    ("picture", "loop", "does", "sentence"),
+    [
+        (ALL, WRONG, "Add", f"all {len(WRONG)} selected points are in the loop already"),
+        (ALL, WRONG, "Drop", None),
+        (
+            LEFT * 0.01,
+            WRONG,
+            "",
+            f"none of {len(WRONG)} boundary points is inside the polygon; draw it round some of them",
+        ),
+        (ALL, np.array([], int), "", "there are no boundary points to select yet; find the boundary first"),
+    ],
+)
+def test_a_selection_that_cannot_be_says_why_and_the_one_before_stands(by_hand, picture, loop, does, sentence):
+    page, step, said = by_hand
+    page.hand.change(loop)
+    before = step._selected = TRUE[:3]
+    step._select(IN_FRONT, picture)
+    assert (step._selected is before) == (does == "")
+    if does:
+        step._edit_selected(does)
+    assert said == ([] if sentence is None else [sentence])
+
+
+def test_points_behind_the_cloud_are_not_selected(by_hand, monkeypatch):
+    _, step, said = by_hand
+    monkeypatch.setattr(boundary_step, "visible", lambda points, places, eye, spacing: np.zeros(len(places), bool))
+    step._select(IN_FRONT, ALL)
+    assert said == [f"the cloud hides all {len(WRONG)} boundary points inside the polygon; turn it"]
+    assert len(step._selected) == 0
+
+
+def test_a_loop_is_changed_only_where_the_cloud_shows_it(by_hand):
+    page, step, said = by_hand
+    step._select(IN_FRONT, LEFT)
+    page.add_view("mesh", lambda: None)
+    step._select(IN_FRONT, ALL)
     assert said.pop() == "the cloud is not shown, so that no points of it are selected; set Show to cloud"
+    step._edit_selected("Clear")
+    assert not page.shows_cloud
+    step._edit("Found loop")
+    assert said.pop() == "no boundary has been found yet; find it first"
+    assert not page.shows_cloud
     step._edit("Reverse")
-    assert bare.shows_cloud, "a loop is not changed out of sight"
+    assert page.shows_cloud
 
 
-def test_an_axis_that_is_chosen_is_upwards_and_clicks_mean_the_same_points(bare):
+def test_clicks_mean_the_same_points_whichever_axis_is_upwards(bare):
     drawing, places = bare.drawing, bare.drawing.places.copy()
     for up in "xyz":
         drawing.stand(up)
-        axes, facing = drawing.frame.axes, drawing.frame.facing
-        assert np.allclose(axes @ np.eye(3)["xyz".index(up)], [0, 0, 1])
+        axes, facing = drawing.axes, drawing.facing
         assert np.array_equal(drawing.places, places)
         ray = SimpleNamespace(ray_origin=tuple(axes @ places[INNER] + facing), ray_direction=tuple(-facing))
         assert drawing.pointed_at(ray) == INNER
+
+
+def test_a_scan_stands_on_the_axis_chosen_and_its_points_are_clicked_where_they_are_seen(window, page):
+    (client,) = page.server.get_clients().values()
+    choose(window, "A click", DROP)
+    tab(window, "Cloud")
+    for up in ("z", "(default)"):
+        before, n_left = page.drawing.axes, len(page.hand.loop) - 1
+        choose(window, "Upwards", up)
+        until(lambda before=before: page.drawing.axes is not before)
+        until(lambda: np.allclose(client.camera.position, np.multiply(DISTANCE, page.drawing.facing), atol=1e-3))
+        click_point(window, page, INNER)
+        until(lambda n_left=n_left: len(page.hand.loop) == n_left)
+    assert set(WRONG) - set(page.hand.loop) >= {INNER}
+
+
+def test_less_is_drawn_while_a_slow_browser_turns_the_scan(window, page, monkeypatch):
+    monkeypatch.setattr(pace, "SLOW", -1.0)
+    monkeypatch.setattr(pace, "GAIN", np.inf)
+    for client in page.server.get_clients().values():
+        page.drawing._keep_pace(client)
+    box = window.locator("canvas").first.bounding_box()
+    window.mouse.move(box["x"] + 100, box["y"] + 300)
+    window.mouse.down()
+    for step in range(8):
+        window.mouse.move(box["x"] + 100 + step % 2, box["y"] + 300, steps=4)
+    until(lambda: not any(frame.visible for frame in page.drawing._fine))
+    window.mouse.up()
+    until(lambda: all(frame.visible for frame in page.drawing._fine))
+    assert not any(frame.visible for frame in page.drawing._coarse)
 
 
 def test_a_click_names_the_outer_loop_and_no_word_stands_twice_on_the_command_line(window, page, scan_file):
@@ -560,13 +631,25 @@ def test_a_result_is_exported_only_while_the_words_and_the_loop_that_made_it_sta
     ):
         change()
         bare.loop_changed()
-        assert OUTDATED in step._said.content
+        assert OTHERWISE in step._said.content
         with pytest.raises(InputError, match="made by other options or another loop than those that stand now; make"):
             step.made("mesh", "make it")
         back()
         bare.loop_changed()
-        assert OUTDATED not in step._said.content
+        assert OTHERWISE not in step._said.content
         assert step.made("mesh", "make it").exists()
+
+
+def test_a_run_that_says_nothing_clears_the_refusal_of_the_run_before(bare, monkeypatch):
+    step = mesh_step(bare)
+    run_as(monkeypatch, FAILS)
+    step.run()
+    assert "it is refused" in step._said.content
+    bare.loop_changed()
+    assert "it is refused" in step._said.content
+    run_as(monkeypatch, (sys.executable, "-c", "import sys; open(sys.argv[sys.argv.index('-o') + 1], 'w')"))
+    step.run()
+    assert step._said.content == ""
 
 
 def test_a_run_that_is_refused_leaves_no_result_of_the_run_before(bare, monkeypatch):
@@ -608,27 +691,6 @@ def test_points_keep_their_size_when_the_cloud_gets_other_colours(bare):
     size = bare.server.scene.get_handle_by_name("/cloud/fine/points").point_size
     bare.drawing.color_cloud(np.ones((N, 3)))
     assert bare.server.scene.get_handle_by_name("/cloud/fine/points").point_size == size
-
-
-def test_a_slow_browser_draws_less_until_its_camera_rests(bare, monkeypatch):
-    told, drawing = [], bare.drawing
-    monkeypatch.setattr(pace, "REST", 0.05)
-    monkeypatch.setattr(pace, "SLOW", 0.001)
-
-    async def turn():
-        watched = pace.Pace(lambda is_coarse: (told.append(is_coarse), drawing.coarsen(is_coarse)))
-        for _ in range(2 * pace.LATEST):
-            await watched.moved(None)
-            await asyncio.sleep(0.004)
-        assert not any(frame.visible for frame in drawing._fine)
-        await asyncio.sleep(0.2)
-
-    # Playwright has a loop of its own in the thread of the tests.
-    with ThreadPoolExecutor(1) as beside:
-        beside.submit(lambda: asyncio.run(turn())).result(SECONDS)
-    assert told == [True, False]
-    assert all(frame.visible for frame in drawing._fine)
-    assert not any(frame.visible for frame in drawing._coarse)
 
 
 def test_an_error_that_nobody_foresaw_is_shown_and_logged(bare, caplog):

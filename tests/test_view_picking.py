@@ -6,10 +6,11 @@ from hypothesis.extra.numpy import arrays
 from matplotlib.path import Path
 
 from pointchart import InputError, ball, delaunay_star, mean_value, nearest, reciprocal_distance, shapes
-from pointchart.boundary import is_same_loop, perimeter
+from pointchart.boundary import is_same_loop, perimeter, reversed_loop
 from pointchart.view.around import around_point
-from pointchart.view.frame import Frame, coarser, shades, thinned
+from pointchart.view.frame import Frame, coarser, shades, stance, thinned
 from pointchart.view.loop_by_hand import LoopByHand, dropped, inserted, nearest_of
+from pointchart.view.pace import Pace
 from pointchart.view.picking import Camera, inside_polygon, nearest_to_ray, project, unproject, visible
 
 RELIEF = shapes.relief(400, seed=2)
@@ -175,9 +176,11 @@ def test_a_loop_by_hand_is_undone_step_by_step_to_where_it_began():
     assert not hand.is_own
     hand.change(np.array([3, 1, 2]))
     hand.change(np.array([3, 1]))
-    for _ in range(5):
+    for _ in range(2):
         hand.undo()
     assert np.array_equal(hand.loop, RELIEF.boundary)
+    with pytest.raises(InputError, match="there is no loop before this one"):
+        hand.undo()
 
 
 def test_a_loop_of_other_points_is_refused():
@@ -236,11 +239,24 @@ def test_places_on_the_page_keep_shapes_at_any_offset(offset):
     assert steps == pytest.approx(scale * np.linalg.norm(np.diff(RELIEF.points, axis=0), axis=1), rel=1e-4, abs=1e-5)
 
 
-def test_a_level_patch_faces_the_viewer_with_y_up_and_a_wall_stands():
-    level, wall = Frame(RELIEF.points), Frame(RELIEF.points[:, [0, 2, 1]] * [1, -1, 1])
-    assert level.facing[1] < -0.85
-    assert wall.facing[1] < -0.85
-    assert np.ptp(level.places(RELIEF.points), axis=0)[1] < 1.2
+@pytest.mark.parametrize("up", [None, "x", "y", "z"])
+@pytest.mark.parametrize("order", [[0, 1, 2], [0, 2, 1], [2, 1, 0]])
+@pytest.mark.parametrize("side", [1, -1])
+def test_however_a_patch_lies_it_stands_on_the_axis_asked_for_and_is_seen_from_the_front_and_above(up, order, side):
+    axes, facing = stance(side * RELIEF.points[:, order], up)
+    assert axes @ axes.T == pytest.approx(np.eye(3))
+    assert np.linalg.det(axes) == pytest.approx(1.0)
+    assert up is None or axes[2] == pytest.approx(np.eye(3)["xyz".index(up)])
+    assert facing[0] == 0.0
+    assert facing[1] <= -0.5 + 1e-9
+    assert facing[2] >= 0.0
+
+
+def test_a_level_patch_and_a_wall_are_both_seen_from_their_broad_side():
+    for points in (RELIEF.points, RELIEF.points[:, [0, 2, 1]] * [1, -1, 1]):
+        axes, facing = stance(points)
+        assert np.ptp(points @ (facing @ axes)) < 1.2
+        assert facing[1] < -0.85
 
 
 def test_large_clouds_and_meshes_are_thinned_and_small_ones_are_not():
@@ -254,5 +270,29 @@ def test_large_clouds_and_meshes_are_thinned_and_small_ones_are_not():
 
 
 def test_light_is_between_dark_and_full():
-    light = shades(RELIEF.points.astype(np.float32))
-    assert 0.35 <= light.min() < light.max() <= 1.0
+    upright = RELIEF.points / np.linalg.norm(RELIEF.points, axis=1)[:, None]
+    assert 0.35 <= shades(upright).min() < shades(upright).max() <= 1.0
+
+
+def test_boundary_points_of_no_order_become_the_boundary(any_disc):
+    loop, (points, boundary) = np.asarray(any_disc.boundary), (any_disc.points, np.sort(any_disc.boundary))
+    for begun in ([], [boundary[0]]):
+        found = inserted(points, np.array(begun, int), boundary)
+        assert is_same_loop(found, loop) or is_same_loop(found, reversed_loop(loop))
+
+
+@pytest.mark.parametrize(
+    ("waits", "last"),
+    [
+        ([0.3] * 6 + [0.07] * 40, True),
+        ([0.02, 0.3] * 3 + [0.07] * 40, True),
+        ([0.02] * 9 + [0.3] * 40, False),
+        ([0.02, 0.02, 0.4] * 20, False),
+        ([0.08] * 13, False),
+        ([0.3] * 6 + [0.07] * 6 + [0.2] * 40, True),
+    ],
+    ids=["slow", "slow, told in pairs", "fast, then a slow hand", "a hand that stops and goes", "a slow hand", "sure"],
+)
+def test_a_browser_is_slow_if_less_to_draw_makes_it_faster_and_it_was_never_fast(waits, last):
+    pace = Pace(print)
+    assert [pace.note(now) for now in np.cumsum([0.0, *waits]).tolist()][-1] == last

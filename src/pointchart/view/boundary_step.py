@@ -26,12 +26,12 @@ CLOSER = 0.9  # share of the way to the nearest point at which the polygon is dr
 INSERT, DROP, OUTER = "inserts it in the loop", "drops the nearest loop point", "names the outer loop"
 LABELS = (("--outer", "Outer loop at"), ("--component", "Component"))
 UNDO, REVERSE, RESTART, EMPTY = "Undo", "Reverse", "Found loop", "Empty"
-TAKE, LEAVE, CLEAR = "Add", "Drop", "Clear"
+ADD, LEAVE_OUT, CLEAR = "Add", "Drop", "Clear"
 HOW = (
-    "“A click” above says what a click on the cloud does: insert or drop a point. Shift + drag draws a polygon: it "
-    "selects points seen inside that are in the loop or score as boundary points, to be added or dropped."
+    "“A click” above says what a click on the cloud does, as to insert or drop a point. Shift + drag draws a polygon: "
+    "it selects points seen inside that are in the loop or score as boundary points, to be added or dropped."
 )
-NONE: Indices = np.empty(0, np.int64)
+NO_POINTS: Indices = np.empty(0, np.int64)
 
 
 class BoundaryStep:
@@ -46,7 +46,7 @@ class BoundaryStep:
         gui = page.server.gui
         self._page = page
         self._found: Indices | None = None
-        self._others = self._selected = NONE
+        self._others = self._selected = NO_POINTS
         self._scores: Floats | None = None
         self.step = Step(
             page,
@@ -65,7 +65,9 @@ class BoundaryStep:
         gui.add_html(said_html([HOW]))
         edits = gui.add_button_group("By hand", (UNDO, REVERSE, RESTART, EMPTY))
         edits.on_click(lambda event: self._edit(event.target.value))
-        chosen = gui.add_button_group("Selected", (TAKE, LEAVE, CLEAR), hint="Points that a polygon was drawn round.")
+        chosen = gui.add_button_group(
+            "Selected", (ADD, LEAVE_OUT, CLEAR), hint="Points that a polygon was drawn round."
+        )
         chosen.on_click(lambda event: self._edit_selected(event.target.value))
         self._add_files()
         page.on_loop.append(self._show)
@@ -98,49 +100,52 @@ class BoundaryStep:
         self._page.drawing.show("cloud")
 
     def _edit(self, what: str) -> None:
-        with self._editing() as hand:
+        with self._changing() as hand:
             if what == UNDO:
                 hand.undo()
             elif what == REVERSE:
                 hand.change(reversed_loop(hand.loop))
             elif what == EMPTY:
-                hand.change(NONE)
+                hand.change(NO_POINTS)
             elif self._found is None:
                 raise InputError("no boundary has been found yet; find it first")
             else:
                 hand.begin(self._found)
 
     def _edit_selected(self, what: str) -> None:
-        with self._editing() as hand:
-            if what != CLEAR and not len(self._selected):
+        if what == CLEAR:
+            self._take_selected(NO_POINTS)
+            return
+        with self._changing() as hand:
+            if not len(self._selected):
                 raise InputError("no points are selected; drag with the shift key round some boundary points")
             in_loop = np.isin(self._selected, hand.loop)
-            if what == TAKE:
-                if in_loop.all():
-                    raise InputError(f"all {len(in_loop)} selected points are in the loop already")
+            if what == ADD and in_loop.all():
+                raise InputError(f"all {len(in_loop)} selected points are in the loop already")
+            if what == LEAVE_OUT and not in_loop.any():
+                raise InputError(f"none of the {len(in_loop)} selected points is in the loop")
+            if what == ADD:
                 hand.change(inserted(self._page.scan.points, hand.loop, self._selected))
-            elif what == LEAVE:
-                if not in_loop.any():
-                    raise InputError(f"none of the {len(in_loop)} selected points is in the loop")
+            else:
                 hand.change(dropped(hand.loop, self._selected))
-            self._selected = NONE
+            self._selected = NO_POINTS
 
     @contextmanager
-    def _editing(self) -> Iterator[LoopByHand]:
-        """Let changes of the loop come one after the other, where they can be seen, and show their errors."""
+    def _changing(self) -> Iterator[LoopByHand]:
+        """Let changes of the loop come one after the other, show their errors, or else the cloud with the new loop."""
         page = self._page
-        with page.editing():
+        with page.edits, page.reporting("boundary"):
             yield page.hand
             if not page.shows_cloud:
                 page.look_at(CLOUDS[0])
             page.loop_changed()
 
     def _insert(self, row: int, _: viser.SceneClickEvent) -> None:
-        with self._editing() as hand:
+        with self._changing() as hand:
             hand.change(inserted(self._page.scan.points, hand.loop, row))
 
     def _drop(self, row: int, _: viser.SceneClickEvent) -> None:
-        with self._editing() as hand:
+        with self._changing() as hand:
             hand.change(dropped(hand.loop, nearest_of(self._page.scan.points, hand.loop, row)))
 
     def _name_outer(self, row: int, _: viser.SceneClickEvent) -> None:
@@ -155,24 +160,29 @@ class BoundaryStep:
             drawing.draw_polygon(unproject(polygon, camera, CLOSER * ahead))
 
     def _select(self, camera: Camera, polygon: UV) -> None:
-        with self._editing() as hand:
-            self._page.drawing.draw_polygon(np.empty((0, 3)))
-            if not self._page.shows_cloud:
+        page, drawing = self._page, self._page.drawing
+        with page.edits, page.reporting("boundary"):
+            if not page.shows_cloud:
                 raise InputError("the cloud is not shown, so that no points of it are selected; set Show to cloud")
-            scored = NONE if self._scores is None else np.flatnonzero(self._scores >= BOUNDARY_SCORE)
-            rows = np.union1d(hand.loop, scored)
+            scored = NO_POINTS if self._scores is None else np.flatnonzero(self._scores >= BOUNDARY_SCORE)
+            rows = np.union1d(page.hand.loop, scored)
             if not len(rows):
                 raise InputError("there are no boundary points to select yet; find the boundary first")
-            drawing = self._page.drawing
             inside = rows[inside_polygon(project(drawing.places[rows], camera), polygon)]
             if not len(inside):
                 raise InputError(
                     f"none of {len(rows)} boundary points is inside the polygon; draw it round some of them"
                 )
             cloud, places = drawing.places[drawing.drawn], drawing.places[inside]
-            self._selected = inside[visible(cloud, places, camera.position, spacing=drawing.spacing)]
-            if not len(self._selected):
+            seen = inside[visible(cloud, places, camera.position, spacing=drawing.spacing)]
+            if not len(seen):
                 raise InputError(f"the cloud hides all {len(inside)} boundary points inside the polygon; turn it")
+            self._take_selected(seen)
+
+    def _take_selected(self, rows: Indices) -> None:
+        with self._page.edits:
+            self._selected = rows
+            self._show()
 
     def _show(self) -> None:
         loop, points = self._page.hand.loop, self._page.scan.points
@@ -198,7 +208,7 @@ class BoundaryStep:
 
         @load.on_upload
         def _(_: viser.GuiEvent[Any]) -> None:
-            with self._editing() as hand:
+            with self._changing() as hand:
                 path = page.folder / LOADED
                 path.write_bytes(load.value.content)
                 try:

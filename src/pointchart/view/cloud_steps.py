@@ -1,6 +1,7 @@
 """The first steps: the cloud, and the neighbourhood of a point that is picked."""
 
 from threading import Lock
+from typing import Any
 
 import numpy as np
 import viser
@@ -32,7 +33,12 @@ def add_cloud(page: Page) -> None:
     gui = page.server.gui
     gui.add_html(said_html(lines))
     up = gui.add_dropdown("Upwards", (CHOSEN, *AXES), hint="The axis of the file that is upwards on the page.")
-    up.on_update(lambda _: page.drawing.stand(None if up.value == CHOSEN else up.value))
+
+    @up.on_update
+    def _(_: viser.GuiEvent[Any]) -> None:
+        with page.reporting("cloud"):
+            page.drawing.stand(None if up.value == CHOSEN else up.value)
+
     size = gui.add_slider("Point size", 0.2, 3.0, 0.1, 1.0)
     size.on_update(lambda _: page.drawing.size_points(size.value))
     dark = gui.add_checkbox("Dark page", False)

@@ -3,6 +3,7 @@
 import asyncio
 from collections.abc import Callable
 from functools import partial
+from threading import RLock
 
 import numpy as np
 import viser
@@ -12,7 +13,7 @@ from ..picture import STONE
 from ..stars import normals
 from ..typing import UV, Floats, Indices, Loop, Points, Triangles
 from .around import Around
-from .frame import Frame, coarser, shades, thinned
+from .frame import Frame, coarser, shades, stance, thinned
 from .pace import Pace
 from .picking import Camera, nearest_to_ray
 
@@ -41,7 +42,7 @@ class Drawing:
     """
 
     def __init__(self, server: viser.ViserServer, points: Points) -> None:
-        self._server, self._scene = server, server.scene
+        self._server, self._scene, self._scan = server, server.scene, points
         self._light_up()
         self.frame = Frame(points)
         self.places = self.frame.places(points)
@@ -52,15 +53,17 @@ class Drawing:
         some = self.places[self.drawn].astype(np.float64)
         self._normals = normals(some, nearest(some, NEAREST)).astype(np.float32)
         self._colors: Floats | None = None
-        self._size = 1.0
+        self._size, self._wider = 1.0, float(np.sqrt(len(self.drawn) / len(self._few)))
+        self._one = RLock()  # held by what changes how the cloud is drawn
         self._groups = {name: self._scene.add_frame(f"/{name}", show_axes=False) for name in GROUPS}
         self._fine, self._coarse = (
             [self._scene.add_frame(f"/{name}/{level}", show_axes=False) for name in GROUPS] for level in (FINE, COARSE)
         )
+        self._slow: set[int] = set()  # browsers that draw slowly and whose cameras move
         self.show("cloud")
         self.coarsen(False)
         server.on_client_connect(self._keep_pace)
-        self._turn()
+        self.stand(None)
 
     def _light_up(self) -> None:
         """Light meshes from the front; what viser has for it is twenty times as slow without a graphics card."""
@@ -72,24 +75,22 @@ class Drawing:
 
     def stand(self, up: str | None) -> None:
         """Turn an axis of the file upwards, or the one that is chosen by default, and look at the scan anew."""
-        self.frame.stand(up)
-        self._turn()
-        for client in self._server.get_clients().values():
-            client.camera.position = tuple(DISTANCE * self.frame.facing)
-            client.camera.look_at = MIDDLE
-            client.camera.up_direction = UPWARDS
-
-    def _turn(self) -> None:
         from scipy.spatial.transform import Rotation
 
-        turn = np.roll(Rotation.from_matrix(self.frame.axes).as_quat(), 1)
-        for name in IN_SPACE:
-            self._groups[name].wxyz = turn
-        self._light = shades(self._normals @ self.frame.axes.T)
-        self.color_cloud(self._colors)
-        look = self._server.initial_camera
-        look.position, look.look_at, look.up = tuple(DISTANCE * self.frame.facing), MIDDLE, UPWARDS
-        look.fov = np.deg2rad(45.0)
+        with self._one:
+            self.axes, self.facing = stance(self._scan, up)
+            turn = np.roll(Rotation.from_matrix(self.axes).as_quat(), 1)
+            for name in IN_SPACE:
+                self._groups[name].wxyz = turn
+            self._light = shades(self._normals @ self.axes.T)
+            self.color_cloud(self._colors)
+            look = self._server.initial_camera
+            look.position, look.look_at, look.up = tuple(DISTANCE * self.facing), MIDDLE, UPWARDS
+            look.fov = np.deg2rad(45.0)
+            for client in self._server.get_clients().values():
+                client.camera.position = tuple(DISTANCE * self.facing)
+                client.camera.look_at = MIDDLE
+                client.camera.up_direction = UPWARDS
 
     def camera(self, client: viser.ClientHandle) -> Camera:
         """Return the camera of a browser, as it stands to the places of the scan."""
@@ -97,13 +98,11 @@ class Drawing:
 
         seen = client.camera
         turn = Rotation.from_quat(np.roll(seen.wxyz, -1)).as_matrix()
-        axes = self.frame.axes
-        return Camera(seen.position @ axes, np.asarray(turn.T @ axes), float(seen.fov), float(seen.aspect))
+        return Camera(seen.position @ self.axes, np.asarray(turn.T @ self.axes), float(seen.fov), float(seen.aspect))
 
     def pointed_at(self, event: viser.SceneClickEvent) -> int | None:
         """Return the point of the scan that a click means, None if there is none."""
-        axes = self.frame.axes
-        origin, direction = np.asarray(event.ray_origin) @ axes, np.asarray(event.ray_direction) @ axes
+        origin, direction = (np.asarray(part) @ self.axes for part in (event.ray_origin, event.ray_direction))
         return nearest_to_ray(self.places, origin, direction, reach=self.spacing)
 
     def on_line(self, tell: Callable[[Camera, UV], object], tell_end: Callable[[Camera, UV], object]) -> None:
@@ -112,9 +111,9 @@ class Drawing:
         Parameters
         ----------
         tell : callable
-            Called while the line grows; it must not take long.
+            Called while the line grows, by what serves the browser, which must not wait.
         tell_end : callable
-            Called with the whole line, aside.
+            Called with the whole line, in another thread.
         """
         lines: dict[int, list[tuple[float, float]]] = {}
         # Only what is under the pointer can be dragged: something that is, wherever it is, and is never drawn.
@@ -131,6 +130,7 @@ class Drawing:
             camera, polygon = self.camera(event.client), np.array(line)
             if event.phase == "end":
                 del lines[event.client_id]
+                self.clear_polygon()
                 asyncio.get_running_loop().run_in_executor(None, tell_end, camera, polygon)
             else:
                 tell(camera, polygon)
@@ -139,29 +139,41 @@ class Drawing:
 
     def show(self, shown: str) -> None:
         """Show one of the groups and hide the others."""
+        self._shown = shown
         for name, group in self._groups.items():
             group.visible = name == shown
 
     def _keep_pace(self, client: viser.ClientHandle) -> None:
-        client.camera.on_update(Pace(self.coarsen).moved)
+        def tell(is_slow: bool) -> None:
+            (self._slow.add if is_slow else self._slow.discard)(client.client_id)
+            self.coarsen(bool(self._slow))
+
+        paces = {name: Pace(tell) for name in GROUPS}
+
+        async def moved(_: viser.CameraHandle) -> None:
+            await paces[self._shown].moved()
+
+        client.camera.on_update(moved)
 
     def coarsen(self, is_coarse: bool) -> None:
-        """Draw less of what there is, or all of it again."""
+        """Draw less of what there is, in all browsers, or all of it again."""
         for frames, is_shown in ((self._fine, not is_coarse), (self._coarse, is_coarse)):
             for frame in frames:
                 frame.visible = is_shown
 
     def color_cloud(self, colors: Floats | None) -> None:
         """Draw the cloud in colours of all its points, (n, 3) from 0 to 1, or as of stone."""
-        self._colors = colors
         base = STONE if colors is None else colors[self.drawn]
-        self._cloud = self._levels("cloud", self.places[self.drawn], self._light[:, None] * base, larger=self._size)
+        with self._one:
+            self._colors = colors
+            self._cloud = self._levels("cloud", self.places[self.drawn], self._light[:, None] * base, larger=self._size)
 
     def size_points(self, share: float) -> None:
         """Draw the points of the cloud larger or smaller."""
-        for handle in self._cloud:
-            handle.point_size *= share / self._size
-        self._size = share
+        with self._one:
+            self._size = share
+            for handle, wider in zip(self._cloud, (1.0, self._wider), strict=True):
+                handle.point_size = share * wider * SPACING * self.spacing
 
     def draw_loop(self, loop: Loop, others: Indices) -> None:
         """Draw the loop as it is now, and the points of other loops that were found."""
@@ -203,9 +215,11 @@ class Drawing:
 
     def draw_polygon(self, corners: Floats) -> None:
         """Draw the polygon that selects points, given its corners in space, (k, 3)."""
+        self._lines("/cloud/polygon", np.stack([corners, np.roll(corners, -1, axis=0)], axis=1), LINK, 2.0)
+
+    def clear_polygon(self) -> None:
+        """Draw no polygon."""
         self._clear("/cloud/polygon")
-        if len(corners):
-            self._lines("/cloud/polygon", np.stack([corners, np.roll(corners, -1, axis=0)], axis=1), LINK, 2.0)
 
     def draw_selected(self, rows: Indices) -> None:
         """Draw the points that are selected."""
@@ -232,10 +246,10 @@ class Drawing:
         self._mesh("surface", self.frame.places(points), triangles, has_edges=False)
 
     def _levels(self, group: str, places: Floats, colors: Floats, *, larger: float) -> list[viser.PointCloudHandle]:
-        few, wider = self._few, np.sqrt(len(places) / len(self._few))
+        few = self._few
         return [
             self._points(f"/{group}/{FINE}/points", places, colors, larger=larger),
-            self._points(f"/{group}/{COARSE}/points", places[few], colors[few], larger=wider * larger),
+            self._points(f"/{group}/{COARSE}/points", places[few], colors[few], larger=self._wider * larger),
         ]
 
     def _points(self, name: str, places: Floats, colors: Floats, *, larger: float = 1.0) -> viser.PointCloudHandle:
@@ -260,7 +274,8 @@ class Drawing:
 
     def _mesh(self, group: str, places: Floats, triangles: Triangles, *, has_edges: bool = True) -> None:
         add = partial(self._scene.add_mesh_simple, side="double", cast_shadow=False, receive_shadow=False)
-        fine, few = (coarser(places, triangles, most) for most in (MOST_TRIANGLES, FEW_TRIANGLES))
+        fine = coarser(places, triangles, MOST_TRIANGLES)
+        few = coarser(*fine, FEW_TRIANGLES)
         add(f"/{group}/{FINE}/faces", *fine, color=STONE)
         add(f"/{group}/{COARSE}/faces", *few, color=STONE)
         self._clear(f"/{group}/{FINE}/edges")

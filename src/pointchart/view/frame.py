@@ -6,11 +6,13 @@ from ..camera import camera, upright_axes, upward
 from ..typing import Floats, Indices, Points, Triangles
 
 SIZE = 4.0  # diagonal of the scan on the page
-LIGHT = np.array([-0.45, -0.7, 0.55])  # direction towards it
+SOME = 10_000  # points that tell how a scan stands
+STEEPEST, LEVEL = np.deg2rad(60.0), 1e-6  # how far down we look at most, and what is no direction to look along
+LIGHT = np.array([-0.45, -0.7, 0.55]) / np.linalg.norm([-0.45, -0.7, 0.55])  # direction towards it
 
 
 class Frame:
-    """The way from the scan to the page: to places about the middle of it, and turned so that an axis is upwards.
+    """The way from the scan to the page, where it is about the middle and of one size.
 
     Parameters
     ----------
@@ -20,36 +22,21 @@ class Frame:
     ----------
     scale : float
         Length on the page of a step of one in the file.
-    axes : (3, 3) float64 array
-        Its rows are the directions, in the file, to the right, away from the viewer and upwards on the page.
-    facing : (3,) float64 array
-        Direction on the page from which the scan is looked at.
 
     Examples
     --------
     >>> sheet = np.array([[7.0, 7, 0], [9, 7, 0], [9, 9, 0], [7, 9, 0]])
-    >>> frame = Frame(sheet)
-    >>> [round(float(x), 2) for x in frame.places(sheet)[2]], [round(float(x), 2) for x in frame.facing]
-    ([1.41, 1.41, 0.0], [0.16, -0.89, 0.42])
-    >>> (frame.axes + 0.0).tolist()
-    [[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]]
+    >>> [round(float(x), 2) for x in Frame(sheet).places(sheet)[2]]
+    [1.41, 1.41, 0.0]
     """
 
     def __init__(self, points: Points) -> None:
         low, high = points.min(axis=0), points.max(axis=0)
         self._middle = (low + high) / 2.0
         self.scale = SIZE / float(np.linalg.norm(high - low))
-        self._some = points[:: max(1, len(points) // 10_000)]
-        self.stand()
-
-    def stand(self, up: str | None = None) -> None:
-        """Turn an axis of the file upwards, "x", "y" or "z"; by default that of `upward`."""
-        right, above, towards = upright_axes(upward(self._some) if up is None else up)
-        self.axes = np.stack([right, -towards, above])
-        self.facing = self.axes @ camera(self._some, up=up)[2]
 
     def places(self, points: Points) -> Floats:
-        """Return where points are before they are turned, (n, 3) float32."""
+        """Return places about the middle, in the axes of the file, (n, 3) float32."""
         return np.asarray(((points - self._middle) * self.scale).astype(np.float32))
 
     def plane(self, uv: Floats) -> Floats:
@@ -57,6 +44,40 @@ class Frame:
         low, high = uv.min(axis=0), uv.max(axis=0)
         flat = (uv - (low + high) / 2.0) * (SIZE / max(float(np.linalg.norm(high - low)), 1e-300))
         return np.column_stack([flat[:, 0], np.zeros(len(uv)), flat[:, 1]]).astype(np.float32)
+
+
+def stance(points: Points, up: str | None = None) -> tuple[Floats, Floats]:
+    """Choose how a scan stands on the page, seen from where figures see it, but neither from below nor straight down.
+
+    Parameters
+    ----------
+    points : (n, 3) array
+    up : str, optional
+        The axis of the file that is upwards; by default that of `upward`.
+
+    Returns
+    -------
+    axes : (3, 3) float64 array
+        Its rows are the directions, in the file, to the right, away from the viewer and upwards on the page.
+    facing : (3,) float64 array
+        Direction on the page from which the scan is looked at.
+
+    Examples
+    --------
+    >>> axes, facing = stance(np.array([[0.0, 0, 0], [1, 0, 0], [0, 0, 1], [1, 0, 1]]))
+    >>> axes[2].tolist(), facing.round(2).tolist()
+    ([0.0, 0.0, 1.0], [0.0, -0.91, 0.42])
+    """
+    some = points[:: max(1, len(points) // SOME)]
+    _, above, in_front = upright_axes(upward(some) if up is None else up)
+    towards = camera(some, up=up)[2]
+    height = float(towards @ above)
+    level = towards - height * above
+    if np.linalg.norm(level) < LEVEL:
+        level = in_front
+    away = -level / np.linalg.norm(level)
+    tilt = np.clip(np.arcsin(np.clip(height, -1.0, 1.0)), 0.0, STEEPEST)
+    return np.stack([np.cross(away, above), away, above]), np.array([0.0, -np.cos(tilt), np.sin(tilt)])
 
 
 def thinned(n_points: int, most: int) -> Indices:
@@ -107,11 +128,20 @@ def coarser(places: Floats, triangles: Triangles, most: int) -> tuple[Floats, Tr
 
 
 def shades(upright: Floats) -> Floats:
-    """Light a surface from the front, above and left, by its normals either way, (n, 3); (n,), from 0 to 1.
+    """Light a surface from the front, above and left, whichever side of it is seen.
+
+    Parameters
+    ----------
+    upright : (n, 3) array
+        Unit normals, on the page.
+
+    Returns
+    -------
+    (n,) float64 array, from .35, which faces the light edge on, to 1.
 
     Examples
     --------
-    >>> shades(np.array([[-0.45, -0.7, 0.55], [0.7, -0.45, 0.0]]) / np.array([[0.9975], [1.0]])).round(2).tolist()
-    [1.0, 0.35]
+    >>> shades(np.array([[0.0, 0.0, 1.0], [0.0, 0.0, -1.0]])).round(2).tolist()
+    [0.71, 0.71]
     """
-    return np.asarray(0.35 + 0.65 * np.abs(upright @ (LIGHT / np.linalg.norm(LIGHT))))
+    return np.asarray(0.35 + 0.65 * np.abs(upright @ LIGHT))

@@ -11,8 +11,8 @@ from ..typing import Indices, Loop, Points
 def inserted(points: Points, loop: Loop, indices: ArrayLike) -> Loop:
     """Insert points into a loop, one by one where they lengthen it least.
 
-    The nearest to the loop come first; if there is no loop, those that are farthest from all before (farthest insertion
-    of Rosenkrantz, Stearns and Lewis, 1977), which finds the large shape before the small.
+    The nearest to the loop come first; where it has no shape yet, of up to two points, those that are farthest from all
+    before (farthest insertion of Rosenkrantz, Stearns and Lewis, 1977), which finds the large shape before the small.
 
     Parameters
     ----------
@@ -23,7 +23,7 @@ def inserted(points: Points, loop: Loop, indices: ArrayLike) -> Loop:
 
     Returns
     -------
-    (b + k,) int64 array.
+    (b + those that are new,) int64 array.
 
     Examples
     --------
@@ -33,7 +33,7 @@ def inserted(points: Points, loop: Loop, indices: ArrayLike) -> Loop:
     """
     new = np.setdiff1d(np.atleast_1d(np.asarray(indices, dtype=np.int64)), loop)
     longer = np.asarray(loop, dtype=np.int64)
-    for index in _by_distance(points, loop, new) if len(loop) else _farthest_first(points, new):
+    for index in (_by_distance if len(loop) > 2 else _farthest_first)(points, loop, new):
         place, steps = points[longer], np.linalg.norm(points[longer] - points[index], axis=1)
         cost = steps + np.roll(steps, -1) - np.linalg.norm(np.roll(place, -1, axis=0) - place, axis=1)
         longer = np.insert(longer, int(np.argmin(cost)) + 1 if len(longer) > 1 else len(longer), index)
@@ -46,8 +46,9 @@ def _by_distance(points: Points, loop: Loop, new: Indices) -> Indices:
     return np.asarray(new[np.argsort(cKDTree(points[loop]).query(points[new])[0], kind="stable")])
 
 
-def _farthest_first(points: Points, new: Indices) -> Indices:
-    place, away, order = points[new], np.full(len(new), np.inf), np.empty_like(new)
+def _farthest_first(points: Points, loop: Loop, new: Indices) -> Indices:
+    place, order = points[new], np.empty_like(new)
+    away = np.linalg.norm(place[:, None] - points[loop], axis=2).min(axis=1, initial=np.inf)
     for position in range(len(new)):
         farthest = int(np.argmax(away))
         order[position] = new[farthest]

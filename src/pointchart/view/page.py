@@ -247,12 +247,6 @@ class Page:
         else:
             tell(sentence)
 
-    @contextmanager
-    def editing(self) -> Iterator[None]:
-        """Let changes of the loop come one after the other, and show their errors."""
-        with self.edits, self.reporting("boundary"):
-            yield
-
     def darken(self, is_dark: bool) -> None:
         """Make the page dark, or light again."""
         self.server.gui.configure_theme(

@@ -9,7 +9,7 @@ import viser
 from ..errors import InputError
 from .controls import Controls
 from .page import Made, Page
-from .words import command_html, outdated_html, refused_html, said_html, shortened
+from .words import OTHERWISE, command_html, outdated_html, refused_html, said_html, shortened
 
 
 class Step:
@@ -52,7 +52,7 @@ class Step:
         self._page, self._command, self._works_on, self._out = page, command, works_on, out
         self._take, self._also, self._beside = take, also, beside
         self._made_by: Made | None = None
-        self._told: list[str] = []
+        self._told: list[str] | None = None  # none after a refusal, which stands
         self.controls = Controls(page, command, labels)
         button = page.server.gui.add_button(title, color="blue", icon=viser.Icon.PLAYER_PLAY)
         button.on_click(lambda _: self.run())
@@ -78,8 +78,9 @@ class Step:
 
     def refresh(self) -> None:
         """Write the command line again, and mark what was said if other words or another loop stand now."""
-        self._line.content = command_html(self._page.line(self._command, self._out, self.words))
-        self._tell()
+        with self._page.edits:
+            self._line.content = command_html(self._page.line(self._command, self._out, self.words))
+            self._show_told()
 
     def run(self) -> None:
         """Run the command, and show what it said or why it stopped."""
@@ -87,11 +88,11 @@ class Step:
             self._page.reporting(self._command, self._refuse),
             self._page.running(self._command, self._works_on, self.words, beside=self._beside) as (lines, made_by),
         ):
-            self._made_by = made_by
-            self._take()
             told = [line.replace(self._works_on, self._out) for line in lines if not line.startswith("pointchart: ")]
-            self._told = shortened(told)
-            self._tell()
+            with self._page.edits:
+                self._made_by, self._told = made_by, shortened(told)
+            self._take()
+            self.refresh()
 
     def made(self, what: str, remedy: str) -> Path:
         """Return the file of the last run.
@@ -105,22 +106,19 @@ class Step:
         if self._made_by is None or not path.exists():
             raise InputError(f"there is no {what} yet; {remedy} first")
         if not self._is_current:
-            raise InputError(
-                f"the {what} there is was made by other options or another loop than those that stand now; {remedy} "
-                "again first"
-            )
+            raise InputError(f"the {what} there is {OTHERWISE}; {remedy} again first")
         return path
 
     @property
     def _is_current(self) -> bool:
         return self._made_by == self._page.now(self._command, self.words)
 
-    def _tell(self) -> None:
-        if self._told:
+    def _show_told(self) -> None:
+        if self._told is not None:
             self._said.content = said_html(self._told) if self._is_current else outdated_html(self._told)
 
     def _refuse(self, sentence: str) -> None:
-        self._told = []
+        self._told = None
         self._said.content = refused_html(sentence.replace(self._works_on, self._out))
 
 

@@ -7,7 +7,7 @@ from html import escape
 BOX = "margin:.4em .75em;border-radius:4px;font-size:.85em;line-height:1.45;overflow-wrap:anywhere"
 FRAMED = f"{BOX};padding:.5em .7em"
 OTHER_LOOP = re.compile(r"another loop of \d+ points?, (\S+) long")
-OUTDATED = "What follows was made by other options or another loop than those that stand now; run it again."
+OTHERWISE = "was made by other options or another loop than those that stand now"
 MARKS = {"[ok] ": ("✓", "#2f9e5b"), "[!!] ": ("✗", "#d0432c"), "[--] ": ("·", "inherit")}
 
 
@@ -53,7 +53,8 @@ def outdated_html(lines: Sequence[str]) -> str:
     >>> "opacity" in outdated_html(["[ok] one part"])
     True
     """
-    return f'<div class="outdated">{said_html([OUTDATED])}<div style="opacity:.5">{said_html(lines)}</div></div>'
+    said = said_html([f"What follows {OTHERWISE}; run it again."])
+    return f'<div class="outdated">{said}<div style="opacity:.5">{said_html(lines)}</div></div>'
 
 
 def shortened(lines: Sequence[str], most: int = 5) -> list[str]:
