@@ -27,7 +27,6 @@ from pointchart.view.app import open_page
 from pointchart.view.around import Around
 from pointchart.view.boundary_step import DROP, INSERT, OUTER
 from pointchart.view.cloud_steps import SHOW
-from pointchart.view.drawing import DISTANCE
 from pointchart.view.job import Cancelled, Job
 from pointchart.view.loop_by_hand import LoopByHand
 from pointchart.view.picking import Camera, inside_polygon, project
@@ -491,8 +490,12 @@ def test_points_behind_the_cloud_are_not_selected(by_hand, monkeypatch):
     _, step, said = by_hand
     monkeypatch.setattr(boundary_step, "visible", lambda points, places, eye, spacing: np.zeros(len(places), bool))
     step._select(IN_FRONT, ALL)
-    assert said == [f"the cloud hides all {len(WRONG)} boundary points inside the polygon; turn it"]
     assert len(step._selected) == 0
+    assert said == [f"the cloud hides all {len(WRONG)} boundary points inside the polygon; turn it"]
+    monkeypatch.setattr(boundary_step, "visible", lambda points, places, eye, spacing: places[:, 0] < 1e-6)
+    step._select(IN_FRONT, ALL)
+    assert f"{len(step._selected)} selected, " in step._state.content
+    assert f"{len(WRONG) - len(step._selected)} more inside the polygon are hidden by the cloud" in step._state.content
 
 
 def test_a_loop_is_changed_only_where_the_cloud_shows_it(by_hand):
@@ -528,17 +531,27 @@ def test_a_scan_stands_on_the_axis_chosen_and_its_points_are_clicked_where_they_
         before, n_left = page.drawing.axes, len(page.hand.loop) - 1
         choose(window, "Upwards", up)
         until(lambda before=before: page.drawing.axes is not before)
-        until(lambda: np.allclose(client.camera.position, np.multiply(DISTANCE, page.drawing.facing), atol=1e-3))
+        until(lambda: np.allclose(client.camera.look_at, 0.0))
         click_point(window, page, INNER)
         until(lambda n_left=n_left: len(page.hand.loop) == n_left)
     assert set(WRONG) - set(page.hand.loop) >= {INNER}
+
+
+def test_a_narrow_window_shows_the_whole_scan(browser, bare):
+    with browser.new_context(viewport={"width": 700, "height": 500}, device_scale_factor=0.5) as context:
+        shown = context.new_page()
+        shown.goto(bare.address)
+        shown.get_by_text("A click").wait_for(timeout=SECONDS)
+        (client,) = bare.server.get_clients().values()
+        until(lambda: client.camera.aspect < 0.6)
+        until(lambda: np.abs(project(bare.drawing.places, bare.drawing.camera(client)) - 0.5).max() < 0.5)
 
 
 def test_less_is_drawn_while_a_slow_browser_turns_the_scan(window, page, monkeypatch):
     monkeypatch.setattr(pace, "SLOW", -1.0)
     monkeypatch.setattr(pace, "GAIN", np.inf)
     for client in page.server.get_clients().values():
-        page.drawing._keep_pace(client)
+        page.drawing._follow(client)
     box = window.locator("canvas").first.bounding_box()
     window.mouse.move(box["x"] + 100, box["y"] + 300)
     window.mouse.down()
@@ -603,11 +616,12 @@ def test_the_surface_is_fitted_and_exported(window, page, tmp_path):
 def test_a_run_is_cancelled_by_the_button(window, monkeypatch):
     run_as(monkeypatch, SLEEPS)
     tab(window, "Surface")
+    fill(window, "Tolerance", "7%")
     press(window, "Fit the surface")
     press(window, "Cancel")
     window.get_by_text("cancelled; run it again for a result").wait_for()
     press(window, "Export the surface")
-    window.get_by_text("there is no surface yet; fit it first").wait_for()
+    window.get_by_text(f"the surface there is {OTHERWISE}; fit it again first").wait_for()
 
 
 def test_a_page_whose_app_has_ended_says_so(browser, bare):
@@ -652,14 +666,22 @@ def test_a_run_that_says_nothing_clears_the_refusal_of_the_run_before(bare, monk
     assert step._said.content == ""
 
 
-def test_a_run_that_is_refused_leaves_no_result_of_the_run_before(bare, monkeypatch):
+def test_a_run_that_is_refused_leaves_the_result_before_to_the_words_that_made_it(bare, monkeypatch):
     step = mesh_step(bare)
-    for program in (WRITES, FAILS):
-        run_as(monkeypatch, program)
-        step.run()
-    with pytest.raises(InputError, match="there is no mesh yet; make it first"):
+    run_as(monkeypatch, WRITES)
+    step.run()
+    run_as(monkeypatch, FAILS)
+    step.controls.set("--domain", "square")
+    step.run()
+    assert "it is refused" in step._said.content
+    assert OTHERWISE in step._said.content
+    with pytest.raises(InputError, match="made by other options"):
         step.made("mesh", "make it")
-    assert list(bare.folder.iterdir()) == []
+    step.controls.set("--domain", "circle")
+    bare.loop_changed()
+    assert "it is refused" not in step._said.content
+    assert step.made("mesh", "make it").read_text() == "made"
+    assert [path.name for path in bare.folder.iterdir()] == [MADE]
 
 
 def test_a_run_cancelled_when_it_has_just_ended_well_leaves_no_result(bare, monkeypatch):

@@ -8,7 +8,7 @@ from matplotlib.path import Path
 from pointchart import InputError, ball, delaunay_star, mean_value, nearest, reciprocal_distance, shapes
 from pointchart.boundary import is_same_loop, perimeter, reversed_loop
 from pointchart.view.around import around_point
-from pointchart.view.frame import Frame, coarser, shades, stance, thinned
+from pointchart.view.frame import Frame, coarser, shades, spacing, stance, thinned
 from pointchart.view.loop_by_hand import LoopByHand, dropped, inserted, nearest_of
 from pointchart.view.pace import Pace
 from pointchart.view.picking import Camera, inside_polygon, nearest_to_ray, project, unproject, visible
@@ -257,6 +257,22 @@ def test_a_level_patch_and_a_wall_are_both_seen_from_their_broad_side():
         axes, facing = stance(points)
         assert np.ptp(points @ (facing @ axes)) < 1.2
         assert facing[1] < -0.85
+
+
+@pytest.mark.parametrize("angle", [10, 90, 170])
+@pytest.mark.parametrize("unit", [1e-3, 1e3])
+def test_the_spacing_is_that_of_the_surface_however_it_is_bent(angle, unit):
+    cap = shapes.hemisphere(3000, angle=angle).points * unit
+    area = 2.0 * np.pi * (1.0 - np.cos(np.deg2rad(angle))) * unit**2
+    assert spacing(cap, nearest(cap, 12)) == pytest.approx(np.sqrt(area / 3000), rel=0.25)
+
+
+def test_from_far_away_the_near_half_of_a_closed_surface_is_seen_and_no_point_behind_it():
+    ball = shapes.hemisphere(4000, angle=170).points
+    eye = np.array([30.0, 0.0, 0.0])
+    is_seen = visible(ball, ball, eye, spacing=spacing(ball, nearest(ball, 12)))
+    assert is_seen[ball[:, 0] > 0.2].all()
+    assert not is_seen[ball[:, 0] < -0.2].any()
 
 
 def test_large_clouds_and_meshes_are_thinned_and_small_ones_are_not():

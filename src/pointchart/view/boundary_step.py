@@ -47,6 +47,7 @@ class BoundaryStep:
         self._page = page
         self._found: Indices | None = None
         self._others = self._selected = NO_POINTS
+        self._n_hidden = 0  # boundary points inside the polygon that are not selected
         self._scores: Floats | None = None
         self.step = Step(
             page,
@@ -177,11 +178,11 @@ class BoundaryStep:
             seen = inside[visible(cloud, places, camera.position, spacing=drawing.spacing)]
             if not len(seen):
                 raise InputError(f"the cloud hides all {len(inside)} boundary points inside the polygon; turn it")
-            self._take_selected(seen)
+            self._take_selected(seen, n_hidden=len(inside) - len(seen))
 
-    def _take_selected(self, rows: Indices) -> None:
+    def _take_selected(self, rows: Indices, *, n_hidden: int = 0) -> None:
         with self._page.edits:
-            self._selected = rows
+            self._selected, self._n_hidden = rows, n_hidden
             self._show()
 
     def _show(self) -> None:
@@ -190,6 +191,8 @@ class BoundaryStep:
         lines = [f"{kind}: {len(loop)} points, {perimeter(points, loop):.4g} long" if len(loop) else "no loop yet"]
         if len(self._selected):
             lines.append(f"{len(self._selected)} selected, {np.isin(self._selected, loop).sum()} of them in the loop")
+            if self._n_hidden:
+                lines.append(f"{self._n_hidden} more inside the polygon are hidden by the cloud")
         self._state.content = said_html(lines)
         self._page.drawing.draw_loop(loop, self._others)
         self._page.drawing.draw_selected(self._selected)

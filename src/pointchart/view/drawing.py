@@ -13,7 +13,7 @@ from ..picture import STONE
 from ..stars import normals
 from ..typing import UV, Floats, Indices, Loop, Points, Triangles
 from .around import Around
-from .frame import Frame, coarser, shades, stance, thinned
+from .frame import Frame, coarser, shades, spacing, stance, thinned
 from .pace import Pace
 from .picking import Camera, nearest_to_ray
 
@@ -28,6 +28,7 @@ LOOP, OTHER, LINK, PALE, EDGE = (200, 85, 61), (226, 160, 60), (24, 78, 119), (1
 FINE, COARSE = "fine", "coarse"  # levels of detail
 IN_SPACE = ("cloud", "mesh", "surface")
 GROUPS = (*IN_SPACE, "plane", "flat")
+SAME = 0.01  # share by which a distance may be off and still be the one that was set
 DISTANCE, MIDDLE, UPWARDS = 4.7, (0.0, 0.0, 0.0), (0.0, 0.0, 1.0)  # of the camera, what it looks at, and what is up
 
 
@@ -48,10 +49,10 @@ class Drawing:
         self.places = self.frame.places(points)
         self.drawn = thinned(len(points), MOST_POINTS)
         self._few = thinned(len(self.drawn), FEW_POINTS)
-        area = float(np.prod(np.sort(np.ptp(self.places, axis=0))[1:]))
-        self.spacing = max(float(np.sqrt(area / len(self.drawn))), 1e-4)
         some = self.places[self.drawn].astype(np.float64)
-        self._normals = normals(some, nearest(some, NEAREST)).astype(np.float32)
+        around = nearest(some, NEAREST)
+        self.spacing = spacing(some, around)
+        self._normals = normals(some, around).astype(np.float32)
         self._colors: Floats | None = None
         self._size, self._wider = 1.0, float(np.sqrt(len(self.drawn) / len(self._few)))
         self._one = RLock()  # held by what changes how the cloud is drawn
@@ -62,7 +63,7 @@ class Drawing:
         self._slow: set[int] = set()  # browsers that draw slowly and whose cameras move
         self.show("cloud")
         self.coarsen(False)
-        server.on_client_connect(self._keep_pace)
+        server.on_client_connect(self._follow)
         self.stand(None)
 
     def _light_up(self) -> None:
@@ -88,9 +89,11 @@ class Drawing:
             look.position, look.look_at, look.up = tuple(DISTANCE * self.facing), MIDDLE, UPWARDS
             look.fov = np.deg2rad(45.0)
             for client in self._server.get_clients().values():
-                client.camera.position = tuple(DISTANCE * self.facing)
-                client.camera.look_at = MIDDLE
-                client.camera.up_direction = UPWARDS
+                self._look(client)
+
+    def _look(self, client: viser.ClientHandle) -> None:
+        client.camera.position = tuple(distance(client.camera) * self.facing)
+        client.camera.look_at, client.camera.up_direction = MIDDLE, UPWARDS
 
     def camera(self, client: viser.ClientHandle) -> Camera:
         """Return the camera of a browser, as it stands to the places of the scan."""
@@ -143,14 +146,21 @@ class Drawing:
         for name, group in self._groups.items():
             group.visible = name == shown
 
-    def _keep_pace(self, client: viser.ClientHandle) -> None:
+    def _follow(self, client: viser.ClientHandle) -> None:
+        """Keep pace with the camera of a browser, and the whole scan in its picture until somebody comes nearer."""
+
         def tell(is_slow: bool) -> None:
             (self._slow.add if is_slow else self._slow.discard)(client.client_id)
             self.coarsen(bool(self._slow))
 
-        paces = {name: Pace(tell) for name in GROUPS}
+        paces, kept = {name: Pace(tell) for name in GROUPS}, DISTANCE
 
-        async def moved(_: viser.CameraHandle) -> None:
+        async def moved(camera: viser.CameraHandle) -> None:
+            nonlocal kept
+            away, whole = float(np.linalg.norm(camera.position)), distance(camera)
+            if whole != kept and abs(away - kept) < SAME * kept:
+                camera.position, camera.look_at = tuple(camera.position * whole / away), MIDDLE
+            kept = whole
             await paces[self._shown].moved()
 
         client.camera.on_update(moved)
@@ -183,7 +193,7 @@ class Drawing:
             self._lines("/cloud/loop", np.stack([place, np.roll(place, -1, axis=0)], axis=1), LOOP, 3.0)
         for name, rows, color in (("corners", place, LOOP), ("others", self.places[others], OTHER)):
             if len(rows):
-                self._points(f"/cloud/{name}", rows, np.array(color) / 255.0, larger=2.0)
+                self._points(f"/cloud/{name}", rows, np.array(color) / 255.0, larger=1.4)
 
     def draw_around(self, around: Around, radius: float | None) -> None:
         """Draw the neighbours of a point, its links to them, darker the more they weigh, and the ball."""
@@ -225,7 +235,7 @@ class Drawing:
         """Draw the points that are selected."""
         self._clear("/cloud/selected")
         if len(rows):
-            self._points("/cloud/selected", self.places[rows], np.array(LINK) / 255.0, larger=2.6)
+            self._points("/cloud/selected", self.places[rows], np.array(LINK) / 255.0, larger=1.8)
 
     def draw_plane(self, uv: UV, loop: Loop) -> None:
         """Draw the parameters of the points, and the boundary in the plane."""
@@ -285,3 +295,8 @@ class Drawing:
     def _clear(self, *names: str) -> None:
         for name in names:
             self._scene.remove_by_name(name)
+
+
+def distance(camera: viser.CameraHandle) -> float:
+    """Return from how far away the whole scan is seen: from farther where the picture is narrow."""
+    return DISTANCE / min(1.0, float(camera.aspect))

@@ -3,11 +3,13 @@
 import numpy as np
 
 from ..camera import camera, upright_axes, upward
+from ..neighbors import Neighborhoods
 from ..typing import Floats, Indices, Points, Triangles
 
 SIZE = 4.0  # diagonal of the scan on the page
 SOME = 10_000  # points that tell how a scan stands
 STEEPEST, LEVEL = np.deg2rad(60.0), 1e-6  # how far down we look at most, and what is no direction to look along
+MOST = 0.9  # share of the points that keep the spacing
 LIGHT = np.array([-0.45, -0.7, 0.55]) / np.linalg.norm([-0.45, -0.7, 0.55])  # direction towards it
 
 
@@ -78,6 +80,27 @@ def stance(points: Points, up: str | None = None) -> tuple[Floats, Floats]:
     away = -level / np.linalg.norm(level)
     tilt = np.clip(np.arcsin(np.clip(height, -1.0, 1.0)), 0.0, STEEPEST)
     return np.stack([np.cross(away, above), away, above]), np.array([0.0, -np.cos(tilt), np.sin(tilt)])
+
+
+def spacing(points: Points, around: Neighborhoods) -> float:
+    """Return the spacing that most points keep to their neighbours: of a square grid of as many on the same area.
+
+    Parameters
+    ----------
+    points : (n, 3) array
+    around : Neighborhoods
+        Their nearest, as many for each.
+
+    Examples
+    --------
+    >>> from pointchart import nearest, shapes
+    >>> sheet = shapes.grid(40, 40).points
+    >>> 0.8 < spacing(sheet, nearest(sheet, 12)) < 1.6
+    True
+    """
+    farthest = around.indices.reshape(len(points), -1)[:, -1]
+    reach = np.quantile(np.linalg.norm(points[farthest] - points, axis=1), MOST)
+    return float(reach * np.sqrt(np.pi / (around.sizes[0] + 1)))
 
 
 def thinned(n_points: int, most: int) -> Indices:

@@ -108,7 +108,7 @@ class Page:
         self.darken(False)
         gui.main_panel.dock_right()
         gui.main_panel.set_width(WIDTH)
-        gui.set_panel_label(f"pointchart · {self.path.name}")
+        gui.set_panel_label(f"pointchart · {Path(*self.path.absolute().parts[-2:])}")
         self.runner = Runner(gui)
         self.shown: Any = gui.add_dropdown("Show", CLOUDS[:1], hint="What is drawn; each step that has run adds to it.")
         self._groups: dict[str, Callable[[], None]] = {CLOUDS[0]: lambda: self.drawing.show("cloud")}
@@ -175,7 +175,8 @@ class Page:
 
         Yields
         ------
-        What it said, and what the files are made by. They are there only if the run has ended well.
+        What it said, and what the files are made by. They take the place of those of the run before only if it has
+        ended well.
 
         Raises
         ------
@@ -185,8 +186,6 @@ class Page:
         """
         names, folder = [out, *(name for _, name in beside)], self.folder / RUN
         with self.runner.alone():
-            for name in names:
-                (self.folder / name).unlink(missing_ok=True)
             self._check_unchanged()
             folder.mkdir(exist_ok=True)
             try:

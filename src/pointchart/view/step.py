@@ -52,7 +52,8 @@ class Step:
         self._page, self._command, self._works_on, self._out = page, command, works_on, out
         self._take, self._also, self._beside = take, also, beside
         self._made_by: Made | None = None
-        self._told: list[str] | None = None  # none after a refusal, which stands
+        self._told: list[str] = []
+        self._refused: tuple[Made, str] | None = None  # what was asked for, and why there is none
         self.controls = Controls(page, command, labels)
         button = page.server.gui.add_button(title, color="blue", icon=viser.Icon.PLAYER_PLAY)
         button.on_click(lambda _: self.run())
@@ -80,17 +81,18 @@ class Step:
         """Write the command line again, and mark what was said if other words or another loop stand now."""
         with self._page.edits:
             self._line.content = command_html(self._page.line(self._command, self._out, self.words))
-            self._show_told()
+            self._show_said()
 
     def run(self) -> None:
-        """Run the command, and show what it said or why it stopped."""
+        """Run the command, and show what it said or why it stopped; a result before stays where there is no other."""
+        asked = self._page.now(self._command, self.words)
         with (
-            self._page.reporting(self._command, self._refuse),
+            self._page.reporting(self._command, lambda sentence: self._refuse(asked, sentence)),
             self._page.running(self._command, self._works_on, self.words, beside=self._beside) as (lines, made_by),
         ):
             told = [line.replace(self._works_on, self._out) for line in lines if not line.startswith("pointchart: ")]
             with self._page.edits:
-                self._made_by, self._told = made_by, shortened(told)
+                self._made_by, self._told, self._refused = made_by, shortened(told), None
             self._take()
             self.refresh()
 
@@ -102,24 +104,26 @@ class Step:
         InputError
             If there is none, or other words or another loop stand now than those that made it.
         """
-        path = self._page.folder / self._works_on
-        if self._made_by is None or not path.exists():
+        if self._made_by is None:
             raise InputError(f"there is no {what} yet; {remedy} first")
         if not self._is_current:
             raise InputError(f"the {what} there is {OTHERWISE}; {remedy} again first")
-        return path
+        return self._page.folder / self._works_on
 
     @property
     def _is_current(self) -> bool:
         return self._made_by == self._page.now(self._command, self.words)
 
-    def _show_told(self) -> None:
-        if self._told is not None:
-            self._said.content = said_html(self._told) if self._is_current else outdated_html(self._told)
+    def _refuse(self, asked: Made, sentence: str) -> None:
+        with self._page.edits:
+            self._refused = asked, sentence.replace(self._works_on, self._out)
+            self._show_said()
 
-    def _refuse(self, sentence: str) -> None:
-        self._told = None
-        self._said.content = refused_html(sentence.replace(self._works_on, self._out))
+    def _show_said(self) -> None:
+        asked, sentence = self._refused or (None, "")
+        refused = refused_html(sentence) if asked == self._page.now(self._command, self.words) else ""
+        said = "" if self._made_by is None else (said_html if self._is_current else outdated_html)(self._told)
+        self._said.content = refused + said
 
 
 def add_export(page: Page, title: str, stem: str, suffixes: Sequence[str], write: Callable[[Path], object]) -> Any:
