@@ -19,8 +19,8 @@ help:  ## print this menu
 demo: .venv/run  ## simulate a laser scan, mesh it, print the certificate, write mesh, picture and page to demo/
 	$(BIN)/pointchart demo -o demo
 
-test: .venv/dev  ## run all tests, in two processes
-	OPENBLAS_NUM_THREADS=1 $(BIN)/pytest -n 2 --dist loadgroup
+test: .venv/dev  ## run all tests, in two processes, each file in one, which has its browser
+	OPENBLAS_NUM_THREADS=1 $(BIN)/pytest -n 2 --dist loadfile
 
 check: .venv/dev  ## format, lint, types, import contracts
 	$(BIN)/ruff format --check .

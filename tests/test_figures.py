@@ -17,9 +17,6 @@ from pointchart.figures import surfaces as of_surfaces
 from pointchart.fit import BSplineSurface, evaluate
 from pointchart.picture import ACCENT, INK
 
-# One process draws for all of them.
-pytestmark = pytest.mark.xdist_group("figures")
-
 DISC = shapes.disc(400, seed=1)
 CAP = shapes.hemisphere(400)
 UNIT = np.array([0.0, 0, 1, 1])

@@ -20,9 +20,6 @@ from pointchart.page.shades import Shade, mesh_shades
 from pointchart.page.thin import thin
 from pointchart.report import run_report
 
-# One process has the page and the browser open for all of them.
-pytestmark = pytest.mark.xdist_group("page")
-
 ACCENT = np.array([0xC8, 0x55, 0x3D])
 PAPER = np.array([0xFB, 0xFA, 0xF7])
 SIDES = (("x", "width"), ("y", "height"))

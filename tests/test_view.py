@@ -33,9 +33,6 @@ from pointchart.view.picking import Camera, inside_polygon, project
 from pointchart.view.step import Step
 from pointchart.view.words import OTHERWISE
 
-# One process has the page and the browser open for all of them.
-pytestmark = pytest.mark.xdist_group("view")
-
 N = 200
 RELIEF = shapes.relief(N, seed=2)
 TRUE = np.asarray(RELIEF.boundary)
