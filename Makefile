@@ -19,7 +19,7 @@ help:  ## print this menu
 demo: .venv/run  ## simulate a laser scan, mesh it, print the certificate, write mesh, picture and page to demo/
 	$(BIN)/pointchart demo -o demo
 
-test: .venv/dev  ## run all tests, in two processes, each file in one, which has its browser
+test: .venv/dev  ## run all tests, in two processes, those of a file in the same one, which share a browser
 	OPENBLAS_NUM_THREADS=1 $(BIN)/pytest -n 2 --dist loadfile
 
 check: .venv/dev  ## format, lint, types, import contracts

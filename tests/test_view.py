@@ -1,3 +1,4 @@
+import re
 import shlex
 import signal
 import socket
@@ -31,7 +32,7 @@ from pointchart.view.job import Cancelled, Job
 from pointchart.view.loop_by_hand import LoopByHand
 from pointchart.view.picking import Camera, inside_polygon, project
 from pointchart.view.step import Step
-from pointchart.view.words import OTHERWISE
+from pointchart.view.words import OTHERWISE, dimmed_html, refused_html
 
 N = 200
 RELIEF = shapes.relief(N, seed=2)
@@ -396,7 +397,7 @@ def test_a_wrong_loop_is_mended_by_picking_and_the_mesh_exported_and_certified(
     assert (tmp_path / "mesh.ply").read_bytes() == made.read_bytes()
     choose(window, "Domain", "circle")
     press(window, "Export the mesh")
-    window.get_by_text("the mesh there is was made by other options or another loop").first.wait_for()
+    window.get_by_text("this mesh was made by other options or another loop").first.wait_for()
 
 
 def test_the_boundary_is_found_and_points_in_a_polygon_that_is_dragged_are_dropped_and_added_again(window, page):
@@ -461,7 +462,7 @@ def test_of_half_the_picture_that_half_of_the_loop_is_selected_dropped_and_added
 @pytest.mark.parametrize(
     ("picture", "loop", "does", "sentence"),
     [
-        (ALL, WRONG, "Add", f"all {len(WRONG)} selected points are in the loop already"),
+        (ALL, WRONG, "Add", f"nothing to add: of {len(WRONG)} selected all are in the loop already"),
         (ALL, WRONG, "Drop", None),
         (
             LEFT * 0.01,
@@ -522,42 +523,56 @@ def test_clicks_mean_the_same_points_whichever_axis_is_upwards(bare):
 
 def test_a_scan_stands_on_the_axis_chosen_and_its_points_are_clicked_where_they_are_seen(window, page):
     (client,) = page.server.get_clients().values()
-    choose(window, "A click", DROP)
+    choose(window, "A click", OUTER)
     tab(window, "Cloud")
     for up in ("z", "(default)"):
-        before, n_left = page.drawing.axes, len(page.hand.loop) - 1
+        before = page.drawing.axes
         choose(window, "Upwards", up)
         until(lambda before=before: page.drawing.axes is not before)
-        until(lambda: np.allclose(client.camera.look_at, 0.0))
-        click_point(window, page, INNER)
-        until(lambda n_left=n_left: len(page.hand.loop) == n_left)
-    assert set(WRONG) - set(page.hand.loop) >= {INNER}
+        row = off_centre(page, client)
+        until(lambda row=row: click_point(window, page, row) or page.where() == ["--outer", place_of(row)])
+    tab(window, "Boundary")
+    fill(window, "Outer loop at", "")
+    until(lambda: page.where() == [])
+
+
+def off_centre(page, client):
+    """Return the point that is seen in the picture, not in its middle, and farthest from all others."""
+    seen = project(page.drawing.places, page.drawing.camera(client))
+    from_middle = np.abs(seen - 0.5).max(axis=1)
+    away = np.linalg.norm(seen[:, None] - seen, axis=2) + 9.0 * np.eye(N)
+    return int(np.argmax(np.where((from_middle > 0.2) & (from_middle < 0.45), away.min(axis=1), 0.0)))
+
+
+def place_of(row):
+    return ",".join(f"{x:.9g}" for x in RELIEF.points[row])
 
 
 def test_a_narrow_window_shows_the_whole_scan(browser, bare):
-    with browser.new_context(viewport={"width": 700, "height": 500}, device_scale_factor=0.5) as context:
+    with browser.new_context(viewport={"width": 720, "height": 500}, device_scale_factor=0.5) as context:
         shown = context.new_page()
         shown.goto(bare.address)
         shown.get_by_text("A click").wait_for(timeout=SECONDS)
+        until(bare.server.get_clients)
         (client,) = bare.server.get_clients().values()
         until(lambda: client.camera.aspect < 0.6)
         until(lambda: np.abs(project(bare.drawing.places, bare.drawing.camera(client)) - 0.5).max() < 0.5)
 
 
-def test_less_is_drawn_while_a_slow_browser_turns_the_scan(window, page, monkeypatch):
+def test_less_is_drawn_while_a_slow_browser_turns_the_scan(browser, bare, monkeypatch):
     monkeypatch.setattr(pace, "SLOW", -1.0)
     monkeypatch.setattr(pace, "GAIN", np.inf)
-    for client in page.server.get_clients().values():
-        page.drawing._follow(client)
-    box = window.locator("canvas").first.bounding_box()
-    window.mouse.move(box["x"] + 100, box["y"] + 300)
-    window.mouse.down()
-    for step in range(8):
-        window.mouse.move(box["x"] + 100 + step % 2, box["y"] + 300, steps=4)
-    until(lambda: not any(frame.visible for frame in page.drawing._fine))
-    window.mouse.up()
-    until(lambda: all(frame.visible for frame in page.drawing._fine))
-    assert not any(frame.visible for frame in page.drawing._coarse)
+    fine, coarse, places = bare.drawing._fine, bare.drawing._coarse, iter(range(10**9))
+    with browser.new_context(viewport={"width": 800, "height": 500}, device_scale_factor=0.5) as context:
+        shown = context.new_page()
+        shown.goto(bare.address)
+        shown.get_by_text("A click").wait_for(timeout=SECONDS)
+        shown.locator("canvas").first.wait_for()
+        shown.mouse.move(100, 250)
+        shown.mouse.down()
+        until(lambda: shown.mouse.move(100 + 9 * (next(places) % 9), 250) or not any(frame.visible for frame in fine))
+        shown.mouse.up()
+        until(lambda: all(frame.visible for frame in fine) and not any(frame.visible for frame in coarse))
 
 
 def test_a_click_names_the_outer_loop_and_no_word_stands_twice_on_the_command_line(window, page, scan_file):
@@ -618,7 +633,7 @@ def test_a_run_is_cancelled_by_the_button(window, monkeypatch):
     press(window, "Cancel")
     window.get_by_text("cancelled; run it again for a result").wait_for()
     press(window, "Export the surface")
-    window.get_by_text(f"the surface there is {OTHERWISE}; fit it again first").wait_for()
+    window.get_by_text(re.compile(f"there is no surface yet; fit it first|this surface {OTHERWISE}")).wait_for()
 
 
 def test_a_page_whose_app_has_ended_says_so(browser, bare):
@@ -676,7 +691,8 @@ def test_a_run_that_is_refused_leaves_the_result_before_to_the_words_that_made_i
         step.made("mesh", "make it")
     step.controls.set("--domain", "circle")
     bare.loop_changed()
-    assert "it is refused" not in step._said.content
+    assert dimmed_html(refused_html("it is refused")) in step._said.content
+    assert OTHERWISE not in step._said.content
     assert step.made("mesh", "make it").read_text() == "made"
     assert [path.name for path in bare.folder.iterdir()] == [MADE]
 
@@ -694,6 +710,24 @@ def test_a_run_cancelled_when_it_has_just_ended_well_leaves_no_result(bare, monk
     with pytest.raises(InputError, match="there is no mesh yet"):
         step.made("mesh", "make it")
     assert list(bare.folder.iterdir()) == []
+
+
+def test_a_result_is_made_by_the_words_that_stood_when_its_run_began(bare, monkeypatch):
+    step, finish = mesh_step(bare), Job.run
+    run_as(monkeypatch, WRITES)
+
+    def changed_meanwhile(job, tell):
+        lines = finish(job, tell)
+        step.controls.set("--domain", "square")
+        return lines
+
+    monkeypatch.setattr(Job, "run", changed_meanwhile)
+    step.run()
+    assert OTHERWISE in step._said.content
+    with pytest.raises(InputError, match="this mesh was made by other options"):
+        step.made("mesh", "make it")
+    step.controls.set("--domain", "circle")
+    assert step.made("mesh", "make it").exists()
 
 
 def test_a_run_reads_the_loop_from_a_file_that_the_line_shown_does_not_tell_of(bare, monkeypatch):

@@ -10,8 +10,9 @@ from pointchart.boundary import is_same_loop, perimeter, reversed_loop
 from pointchart.view.around import around_point
 from pointchart.view.frame import Frame, coarser, shades, spacing, stance, thinned
 from pointchart.view.loop_by_hand import LoopByHand, dropped, inserted, nearest_of
-from pointchart.view.pace import Pace
+from pointchart.view.pace import TRIALS, Pace
 from pointchart.view.picking import Camera, inside_polygon, nearest_to_ray, project, unproject, visible
+from pointchart.view.whole import DISTANCE, Whole, whole_distance
 
 RELIEF = shapes.relief(400, seed=2)
 CAMERA = Camera(np.array([0.2, -0.1, 4.0]), np.diag([1.0, -1.0, -1.0]), fov=0.8, aspect=1.5)
@@ -305,10 +306,37 @@ def test_boundary_points_of_no_order_become_the_boundary(any_disc):
         ([0.02] * 9 + [0.3] * 40, False),
         ([0.02, 0.02, 0.4] * 20, False),
         ([0.08] * 13, False),
+        ([0.3] * 200, False),
         ([0.3] * 6 + [0.07] * 6 + [0.2] * 40, True),
     ],
-    ids=["slow", "slow, told in pairs", "fast, then a slow hand", "a hand that stops and goes", "a slow hand", "sure"],
+    ids=[
+        "slow",
+        "slow, told in pairs",
+        "fast, then a slow hand",
+        "a hand that stops and goes",
+        "a slow hand",
+        "a hand that stays slow",
+        "sure",
+    ],
 )
 def test_a_browser_is_slow_if_less_to_draw_makes_it_faster_and_it_was_never_fast(waits, last):
     pace = Pace(print)
-    assert [pace.note(now) for now in np.cumsum([0.0, *waits]).tolist()][-1] == last
+    told = [pace.note(now) for now in np.cumsum([0.0, *waits]).tolist()]
+    assert told[-1] == last
+    assert np.count_nonzero(np.diff(told)) <= 2 * TRIALS
+
+
+@pytest.mark.parametrize("late", [0, 1, 2, 3])
+def test_while_a_window_is_narrowed_the_whole_scan_stays_in_it_though_the_browser_answers_late(late):
+    whole, told = Whole(), [DISTANCE] * (late + 1)
+    for frame, aspect in enumerate([1.4, 0.8, 0.7, 0.6, 0.48, 0.48, 0.48, 0.48, 0.48]):
+        told.append(whole.corrected(told[-1 - late], aspect, now=0.02 * frame) or told[-1])
+    assert told[-1] == pytest.approx(whole_distance(0.48))
+
+
+def test_who_has_come_nearer_stays_there():
+    whole = Whole()
+    assert whole.corrected(3.0, 1.4, now=0.0) is None
+    assert whole.corrected(3.0, 0.5, now=0.1) is None
+    assert whole.corrected(DISTANCE, 0.5, now=0.2) == whole_distance(0.5)
+    assert whole.corrected(DISTANCE, 0.5, now=9.0) is None, "nearer than the whole by now"

@@ -122,9 +122,9 @@ class BoundaryStep:
                 raise InputError("no points are selected; drag with the shift key round some boundary points")
             in_loop = np.isin(self._selected, hand.loop)
             if what == ADD and in_loop.all():
-                raise InputError(f"all {len(in_loop)} selected points are in the loop already")
+                raise InputError(f"nothing to add: of {len(in_loop)} selected all are in the loop already")
             if what == LEAVE_OUT and not in_loop.any():
-                raise InputError(f"none of the {len(in_loop)} selected points is in the loop")
+                raise InputError(f"nothing to drop: of {len(in_loop)} selected none is in the loop")
             if what == ADD:
                 hand.change(inserted(self._page.scan.points, hand.loop, self._selected))
             else:

@@ -36,11 +36,16 @@ def add_cloud(page: Page) -> None:
 
     @up.on_update
     def _(_: viser.GuiEvent[Any]) -> None:
-        with page.reporting("cloud"):
+        with page.reporting("cloud"), page.drawing.changing:
             page.drawing.stand(None if up.value == CHOSEN else up.value)
 
     size = gui.add_slider("Point size", 0.2, 3.0, 0.1, 1.0)
-    size.on_update(lambda _: page.drawing.size_points(size.value))
+
+    @size.on_update
+    def _(_: viser.GuiEvent[Any]) -> None:
+        with page.drawing.changing:
+            page.drawing.size_points(size.value)
+
     dark = gui.add_checkbox("Dark page", False)
     dark.on_update(lambda _: page.darken(dark.value))
 

@@ -1,6 +1,7 @@
 """What the page shows in space: the cloud, a neighbourhood, loops, parameters, mesh and surface."""
 
 import asyncio
+import time
 from collections.abc import Callable
 from functools import partial
 from threading import RLock
@@ -16,6 +17,7 @@ from .around import Around
 from .frame import Frame, coarser, shades, spacing, stance, thinned
 from .pace import Pace
 from .picking import Camera, nearest_to_ray
+from .whole import DISTANCE, SAME, Whole, whole_distance
 
 MOST_POINTS, MOST_TRIANGLES = 300_000, 400_000
 MOST_EDGED = 100_000  # triangles; the edges of more make one dark plane
@@ -28,8 +30,7 @@ LOOP, OTHER, LINK, PALE, EDGE = (200, 85, 61), (226, 160, 60), (24, 78, 119), (1
 FINE, COARSE = "fine", "coarse"  # levels of detail
 IN_SPACE = ("cloud", "mesh", "surface")
 GROUPS = (*IN_SPACE, "plane", "flat")
-SAME = 0.01  # share by which a distance may be off and still be the one that was set
-DISTANCE, MIDDLE, UPWARDS = 4.7, (0.0, 0.0, 0.0), (0.0, 0.0, 1.0)  # of the camera, what it looks at, and what is up
+MIDDLE, UPWARDS = (0.0, 0.0, 0.0), (0.0, 0.0, 1.0)  # what the camera looks at, and what is up
 
 
 class Drawing:
@@ -55,12 +56,12 @@ class Drawing:
         self._normals = normals(some, around).astype(np.float32)
         self._colors: Floats | None = None
         self._size, self._wider = 1.0, float(np.sqrt(len(self.drawn) / len(self._few)))
-        self._one = RLock()  # held by what changes how the cloud is drawn
+        self.changing = RLock()  # held by whatever changes how the cloud is drawn
         self._groups = {name: self._scene.add_frame(f"/{name}", show_axes=False) for name in GROUPS}
         self._fine, self._coarse = (
             [self._scene.add_frame(f"/{name}/{level}", show_axes=False) for name in GROUPS] for level in (FINE, COARSE)
         )
-        self._slow: set[int] = set()  # browsers that draw slowly and whose cameras move
+        self._slow: set[tuple[int, str]] = set()  # browsers whose cameras move and what they draw slowly
         self.show("cloud")
         self.coarsen(False)
         server.on_client_connect(self._follow)
@@ -78,7 +79,7 @@ class Drawing:
         """Turn an axis of the file upwards, or the one that is chosen by default, and look at the scan anew."""
         from scipy.spatial.transform import Rotation
 
-        with self._one:
+        with self.changing:
             self.axes, self.facing = stance(self._scan, up)
             turn = np.roll(Rotation.from_matrix(self.axes).as_quat(), 1)
             for name in IN_SPACE:
@@ -92,7 +93,7 @@ class Drawing:
                 self._look(client)
 
     def _look(self, client: viser.ClientHandle) -> None:
-        client.camera.position = tuple(distance(client.camera) * self.facing)
+        client.camera.position = tuple(whole_distance(client.camera.aspect) * self.facing)
         client.camera.look_at, client.camera.up_direction = MIDDLE, UPWARDS
 
     def camera(self, client: viser.ClientHandle) -> Camera:
@@ -146,41 +147,47 @@ class Drawing:
         for name, group in self._groups.items():
             group.visible = name == shown
 
-    def _follow(self, client: viser.ClientHandle) -> None:
+    async def _follow(self, client: viser.ClientHandle) -> None:
         """Keep pace with the camera of a browser, and the whole scan in its picture until somebody comes nearer."""
-
-        def tell(is_slow: bool) -> None:
-            (self._slow.add if is_slow else self._slow.discard)(client.client_id)
-            self.coarsen(bool(self._slow))
-
-        paces, kept = {name: Pace(tell) for name in GROUPS}, DISTANCE
+        whole, paces = Whole(), {name: Pace(self._pace_teller(client.client_id, name)) for name in GROUPS}
 
         async def moved(camera: viser.CameraHandle) -> None:
-            nonlocal kept
-            away, whole = float(np.linalg.norm(camera.position)), distance(camera)
-            if whole != kept and abs(away - kept) < SAME * kept:
-                camera.position, camera.look_at = tuple(camera.position * whole / away), MIDDLE
-            kept = whole
-            await paces[self._shown].moved()
+            if camera.image_width * camera.image_height == 0:
+                return
+            away = float(np.linalg.norm(camera.position))
+            distance = whole.corrected(away, camera.aspect, time.monotonic())
+            if distance is not None and np.allclose(camera.look_at, MIDDLE, atol=SAME):
+                camera.position, camera.look_at = tuple(camera.position * distance / away), MIDDLE
+            # With less to draw all browsers are fast: only the one for which it is drawn is told from that.
+            if not self._slow or (client.client_id, self._shown) in self._slow:
+                await paces[self._shown].moved()
 
         client.camera.on_update(moved)
 
+    def _pace_teller(self, client: int, group: str) -> Callable[[bool], None]:
+        def tell(is_slow: bool) -> None:
+            (self._slow.add if is_slow else self._slow.discard)((client, group))
+            self.coarsen(bool(self._slow))
+
+        return tell
+
     def coarsen(self, is_coarse: bool) -> None:
         """Draw less of what there is, in all browsers, or all of it again."""
-        for frames, is_shown in ((self._fine, not is_coarse), (self._coarse, is_coarse)):
-            for frame in frames:
-                frame.visible = is_shown
+        with self._server.atomic():
+            for frames, is_shown in ((self._fine, not is_coarse), (self._coarse, is_coarse)):
+                for frame in frames:
+                    frame.visible = is_shown
 
     def color_cloud(self, colors: Floats | None) -> None:
         """Draw the cloud in colours of all its points, (n, 3) from 0 to 1, or as of stone."""
         base = STONE if colors is None else colors[self.drawn]
-        with self._one:
+        with self.changing:
             self._colors = colors
             self._cloud = self._levels("cloud", self.places[self.drawn], self._light[:, None] * base, larger=self._size)
 
     def size_points(self, share: float) -> None:
         """Draw the points of the cloud larger or smaller."""
-        with self._one:
+        with self.changing:
             self._size = share
             for handle, wider in zip(self._cloud, (1.0, self._wider), strict=True):
                 handle.point_size = share * wider * SPACING * self.spacing
@@ -295,8 +302,3 @@ class Drawing:
     def _clear(self, *names: str) -> None:
         for name in names:
             self._scene.remove_by_name(name)
-
-
-def distance(camera: viser.CameraHandle) -> float:
-    """Return from how far away the whole scan is seen: from farther where the picture is narrow."""
-    return DISTANCE / min(1.0, float(camera.aspect))

@@ -9,7 +9,7 @@ from ..typing import Floats, Indices, Points, Triangles
 SIZE = 4.0  # diagonal of the scan on the page
 SOME = 10_000  # points that tell how a scan stands
 STEEPEST, LEVEL = np.deg2rad(60.0), 1e-6  # how far down we look at most, and what is no direction to look along
-MOST = 0.9  # share of the points that keep the spacing
+MOST = 0.9  # share of the points that tells the spacing: the others are farther from their neighbours
 LIGHT = np.array([-0.45, -0.7, 0.55]) / np.linalg.norm([-0.45, -0.7, 0.55])  # direction towards it
 
 
@@ -83,7 +83,7 @@ def stance(points: Points, up: str | None = None) -> tuple[Floats, Floats]:
 
 
 def spacing(points: Points, around: Neighborhoods) -> float:
-    """Return the spacing that most points keep to their neighbours: of a square grid of as many on the same area.
+    """Return the step of a square grid that is as dense as most points are at least.
 
     Parameters
     ----------

@@ -29,6 +29,7 @@ BRAND = (38, 99, 140)
 WIDTH = 460  # pixels of the panel
 CLOUDS = "cloud", "boundary scores"  # what shows points that can be clicked
 LOOP_FILE = "loop.txt"
+OUT = 3  # where the words of a run name its file
 RUN = "run"  # folder of the files of a run, which are taken out of it when it has ended well
 LAST = 0.2  # seconds in which the last words reach the browser
 
@@ -112,7 +113,8 @@ class Page:
         self.runner = Runner(gui)
         self.shown: Any = gui.add_dropdown("Show", CLOUDS[:1], hint="What is drawn; each step that has run adds to it.")
         self._groups: dict[str, Callable[[], None]] = {CLOUDS[0]: lambda: self.drawing.show("cloud")}
-        self.shown.on_update(lambda _: self._groups[self.shown.value]())
+        self._showing = RLock()  # held while something else comes to be shown, which may take a while
+        self.shown.on_update(lambda _: self._show())
 
     @property
     def shows_cloud(self) -> bool:
@@ -127,9 +129,15 @@ class Page:
             self.look_at(name)
 
     def look_at(self, name: str) -> None:
-        """Show one of the things that there are."""
-        self.shown.value = name
-        self._groups[name]()
+        """Show one of the things that there are, anew if it is shown already."""
+        if self.shown.value == name:
+            self._show()
+        else:
+            self.shown.value = name
+
+    def _show(self) -> None:
+        with self._showing:
+            self._groups[self.shown.value]()
 
     def loop_changed(self) -> None:
         """Draw the loop again, and write the command lines again."""
@@ -137,12 +145,12 @@ class Page:
             for tell in self.on_loop:
                 tell()
 
-    def words(self, command: str, out: str, own: Sequence[str], *, loop_file: str = LOOP_FILE) -> list[str]:
+    def words(self, command: str, out: str, own: Sequence[str]) -> list[str]:
         """Return the words of a command on this scan, which name the boundary as it is now."""
         words = [command, str(self.path), "-o", out]
         takes_loop = self.commands.option(command, "--boundary") is not None
         if takes_loop and self.hand.is_own:
-            words += ["--boundary", loop_file]
+            words += ["--boundary", LOOP_FILE]
         given = self.where()
         for flag, word in zip(given[::2], given[1::2], strict=True):
             is_moot = flag in own or (flag == "--outer" and takes_loop and self.hand.is_own)
@@ -162,21 +170,29 @@ class Page:
 
     @contextmanager
     def running(
-        self, command: str, out: str, own: Sequence[str], *, beside: Sequence[tuple[str, str]] = ()
-    ) -> Iterator[tuple[list[str], Made]]:
+        self,
+        command: str,
+        out: str,
+        own: Sequence[str],
+        *,
+        keep: Callable[[Made], object],
+        beside: Sequence[tuple[str, str]] = (),
+    ) -> Iterator[list[str]]:
         """Run a command on this scan into the folder between steps; no other runs before the body has ended.
 
         Parameters
         ----------
         command, out, own
             As for `words`.
+        keep : callable
+            Called with what the files are made by when they take the place of those of the run before, which is only if
+            the run has ended well.
         beside : sequence of (flag, name)
             Files that are written as well.
 
         Yields
         ------
-        What it said, and what the files are made by. They take the place of those of the run before only if it has
-        ended well.
+        What it said.
 
         Raises
         ------
@@ -193,14 +209,18 @@ class Page:
                     made_by = self.now(command, own)
                     if self.hand.is_own:
                         write_loop(folder / LOOP_FILE, self.hand.loop)
-                    aside = [word for flag, name in beside for word in (flag, str(folder / name))]
-                    words = self.words(command, str(folder / out), [*own, *aside], loop_file=str(folder / LOOP_FILE))
+                aside = [word for flag, name in beside for word in (flag, str(folder / name))]
+                words = [*made_by[0][:OUT], str(folder / out), *made_by[0][OUT + 1 :], *aside]
+                if words[OUT + 1 : OUT + 3] == ["--boundary", LOOP_FILE]:
+                    words[OUT + 2] = str(folder / LOOP_FILE)
                 lines = self.runner.run(words)
-                for name in names:
-                    (folder / name).replace(self.folder / name)
+                with self.edits:
+                    for name in names:
+                        (folder / name).replace(self.folder / name)
+                    keep(made_by)
             finally:
                 shutil.rmtree(folder, ignore_errors=True)
-            yield [self.plain(line) for line in lines], made_by
+            yield [self.plain(line) for line in lines]
 
     def plain(self, text: str) -> str:
         """Leave the folder between steps out of a text: its files have the names that the user gives them."""
@@ -215,7 +235,9 @@ class Page:
             return
         waiting = client.add_notification(name, "being written", loading=True, with_close_button=False)
         try:
-            write(path)
+            # No run may put another file in the place of the one that is read here.
+            with self.edits:
+                write(path)
             client.send_file_download(name, path.read_bytes(), save_immediately=True)
         finally:
             waiting.remove()

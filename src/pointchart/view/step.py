@@ -9,7 +9,7 @@ import viser
 from ..errors import InputError
 from .controls import Controls
 from .page import Made, Page
-from .words import OTHERWISE, command_html, outdated_html, refused_html, said_html, shortened
+from .words import OTHERWISE, command_html, dimmed_html, outdated_html, refused_html, said_html, shortened
 
 
 class Step:
@@ -85,16 +85,20 @@ class Step:
 
     def run(self) -> None:
         """Run the command, and show what it said or why it stopped; a result before stays where there is no other."""
-        asked = self._page.now(self._command, self.words)
+        words = self.words
+        asked = self._page.now(self._command, words)
         with (
             self._page.reporting(self._command, lambda sentence: self._refuse(asked, sentence)),
-            self._page.running(self._command, self._works_on, self.words, beside=self._beside) as (lines, made_by),
+            self._page.running(self._command, self._works_on, words, keep=self._keep, beside=self._beside) as lines,
         ):
             told = [line.replace(self._works_on, self._out) for line in lines if not line.startswith("pointchart: ")]
             with self._page.edits:
-                self._made_by, self._told, self._refused = made_by, shortened(told), None
+                self._told = shortened(told)
             self._take()
             self.refresh()
+
+    def _keep(self, made_by: Made) -> None:
+        self._made_by, self._told, self._refused = made_by, [], None
 
     def made(self, what: str, remedy: str) -> Path:
         """Return the file of the last run.
@@ -106,13 +110,9 @@ class Step:
         """
         if self._made_by is None:
             raise InputError(f"there is no {what} yet; {remedy} first")
-        if not self._is_current:
-            raise InputError(f"the {what} there is {OTHERWISE}; {remedy} again first")
+        if self._made_by != self._page.now(self._command, self.words):
+            raise InputError(f"this {what} {OTHERWISE}; {remedy} again first")
         return self._page.folder / self._works_on
-
-    @property
-    def _is_current(self) -> bool:
-        return self._made_by == self._page.now(self._command, self.words)
 
     def _refuse(self, asked: Made, sentence: str) -> None:
         with self._page.edits:
@@ -120,10 +120,14 @@ class Step:
             self._show_said()
 
     def _show_said(self) -> None:
-        asked, sentence = self._refused or (None, "")
-        refused = refused_html(sentence) if asked == self._page.now(self._command, self.words) else ""
-        said = "" if self._made_by is None else (said_html if self._is_current else outdated_html)(self._told)
-        self._said.content = refused + said
+        now = self._page.now(self._command, self.words)
+        content = ""
+        if self._refused is not None:
+            asked, sentence = self._refused
+            content = refused_html(sentence) if asked == now else dimmed_html(refused_html(sentence))
+        if self._made_by is not None:
+            content += said_html(self._told) if self._made_by == now else outdated_html(self._told)
+        self._said.content = content
 
 
 def add_export(page: Page, title: str, stem: str, suffixes: Sequence[str], write: Callable[[Path], object]) -> Any:

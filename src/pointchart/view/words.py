@@ -53,8 +53,18 @@ def outdated_html(lines: Sequence[str]) -> str:
     >>> "opacity" in outdated_html(["[ok] one part"])
     True
     """
-    said = said_html([f"What follows {OTHERWISE}; run it again."])
-    return f'<div class="outdated">{said}<div style="opacity:.5">{said_html(lines)}</div></div>'
+    return said_html([f"What follows {OTHERWISE}; run it again."]) + dimmed_html(said_html(lines))
+
+
+def dimmed_html(html: str) -> str:
+    """Show something that holds no longer.
+
+    Examples
+    --------
+    >>> dimmed_html("as before")
+    '<div style="opacity:.5">as before</div>'
+    """
+    return f'<div style="opacity:.5">{html}</div>'
 
 
 def shortened(lines: Sequence[str], most: int = 5) -> list[str]:
