@@ -1,9 +1,9 @@
 import numpy as np
 import pytest
+from comparisons import as_set, mixed
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from strategies import planar_discs, rotations, seeds
-from test_patchwork import as_set, mixed
 
 from pointchart import shapes
 from pointchart._exact import orientation_signs

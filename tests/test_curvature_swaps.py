@@ -2,10 +2,10 @@ import copy
 
 import numpy as np
 import pytest
+from comparisons import edges_of
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from strategies import planar_discs, rotations, seeds
-from test_swaps import edges_of
 
 from pointchart import shapes
 from pointchart._kernels import curvature_swaps as kernels

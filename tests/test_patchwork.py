@@ -2,6 +2,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from comparisons import as_set, mixed
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from strategies import planar_discs, seeds
@@ -25,20 +26,6 @@ def soups(draw):
     corners = np.array([rng.permutation(n)[:3] for _ in range(draw(st.integers(1, 60)))])
     first = np.sort(np.unique(np.sort(corners, axis=1), axis=0, return_index=True)[1])
     return corners[first], n
-
-
-def mixed(triangles, rng):
-    """Return triangles in another order, each of either orientation and beginning at any corner."""
-    mixed = rng.permutation(triangles)
-    turn = (np.arange(3) + rng.integers(0, 3, (len(mixed), 1))) % 3
-    mixed = np.take_along_axis(mixed, turn, axis=1)
-    is_turned = rng.random(len(mixed)) < 0.5
-    mixed[is_turned] = mixed[is_turned, ::-1]
-    return mixed
-
-
-def as_set(triangles):
-    return set(map(frozenset, triangles.tolist()))
 
 
 def sides_by_ends(surface):

@@ -1,8 +1,8 @@
 import numpy as np
 import pytest
+from comparisons import edges_of, f1, mixed_in_plane, same_loop
 from hypothesis import given, settings
 from strategies import planar_discs, rotations, seeds
-from test_swaps import edges_of, f1, mixed_in_plane
 
 from pointchart import shapes
 from pointchart._exact import orientation_signs
@@ -22,11 +22,6 @@ def links_of(triangles, n):
     """Every edge of a mesh as a trusted link."""
     rings = one_rings(triangles, n)
     return Links(rings, np.ones(len(rings.indices)))
-
-
-def same_loop(loop, other):
-    start = np.flatnonzero(loop == other[0])[0]
-    return np.array_equal(np.roll(loop, -start), other)
 
 
 @settings(max_examples=15)

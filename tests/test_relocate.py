@@ -1,9 +1,8 @@
 import numpy as np
 import pytest
+from comparisons import edges_of, f1, same_loop
 from hypothesis import given, settings
 from strategies import planar_discs, rotations, seeds
-from test_recover import same_loop
-from test_swaps import edges_of, f1
 
 from pointchart import shapes
 from pointchart.certify import certify

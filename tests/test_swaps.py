@@ -1,5 +1,6 @@
 import numpy as np
 import pytest
+from comparisons import edges_of, f1, flip_at_random, mixed_in_plane
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial import Delaunay
@@ -22,38 +23,6 @@ MAPS = {
     "shape-preserving weights on stars": (shape_preserving, lambda points: delaunay_star(points, nearest(points, 20))),
     "mean value weights on stars": (mean_value, lambda points: delaunay_star(points, nearest(points, 20))),
 }
-
-
-def edges_of(triangles):
-    return set(map(tuple, np.sort(triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1).tolist()))
-
-
-def f1(found, true):
-    return 2 * len(found & true) / (len(found) + len(true))
-
-
-def flip_at_random(triangles, is_allowed, rng, n_flips):
-    """Flip random inner edges ab of triangles abc and bad to cd, where that is allowed and cd is no edge yet."""
-    triangles = triangles.copy()
-    for _ in range(n_flips):
-        edges = half_edges(triangles, triangles.max() + 1)
-        h = rng.choice(np.flatnonzero(edges.twins >= 0))
-        t = edges.twins[h]
-        a, b = edges.origins[h], edges.targets[h]
-        c, d = (int(np.setdiff1d(triangles[k // 3], [a, b])[0]) for k in (h, t))
-        flipped = np.array([[c, a, d], [d, b, c]])
-        if is_allowed(flipped) and (min(c, d), max(c, d)) not in edges_of(triangles):
-            triangles[[h // 3, t // 3]] = flipped
-    return triangles
-
-
-def mixed_in_plane(shape, seed):
-    """Return another triangulation of a planar disc, without a fold."""
-
-    def is_plane(flipped):
-        return (orientation_signs(shape.uv, flipped) == 1).all()
-
-    return flip_at_random(shape.triangles, is_plane, np.random.default_rng(seed), 150)
 
 
 @settings(max_examples=15)
