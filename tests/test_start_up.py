@@ -1,4 +1,3 @@
-import ast
 import os
 import shutil
 import stat
@@ -49,43 +48,6 @@ def read_only(tmp_path, monkeypatch):
     for name in ("NUMBA_CACHE_DIR", "XDG_CACHE_HOME"):
         monkeypatch.delenv(name, raising=False)
     return temporary
-
-
-# The names of the package
-
-
-def test_the_package_is_imported_without_the_libraries_it_uses():
-    said = python("-c", "import sys, pointchart; print(*{name.partition('.')[0] for name in sys.modules})").stdout
-    assert not (HEAVY | {"typer"}) & set(said.split())
-
-
-def test_every_public_name_is_there_and_listed():
-    namespace = {}
-    exec("from pointchart import *", namespace)
-    assert set(pointchart.__all__) <= set(dir(pointchart))
-    assert set(pointchart.__all__) <= set(namespace)
-    for name in pointchart.__all__:
-        assert namespace[name] is getattr(pointchart, name)
-
-
-def test_type_checkers_see_the_names_that_are_there_at_run_time():
-    tree = ast.parse((PACKAGE / "__init__.py").read_text())
-    block = next(node for node in tree.body if isinstance(node, ast.If) and ast.unparse(node.test) == "TYPE_CHECKING")
-    seen = {alias.asname: line.module for line in block.body for alias in line.names}
-    assert seen == pointchart.MODULE_OF
-
-
-@pytest.mark.parametrize("name", sorted(set(pointchart.MODULE_OF) & set(pointchart.NAMES)))
-def test_a_function_stands_before_the_module_of_its_name(name):
-    code = f"import pointchart.{name}; from pointchart import {name}; assert {name} is pointchart.{name}; print({name})"
-    assert python("-c", code).stdout.startswith(f"<function {name} ")
-
-
-def test_modules_are_reached_through_the_package_and_other_names_are_not():
-    code = "import pointchart; print(pointchart.boundary.__name__); pointchart.nonsense"
-    done = python("-c", code)
-    assert done.stdout == "pointchart.boundary\n"
-    assert done.stderr.endswith("AttributeError: module 'pointchart' has no attribute 'nonsense'\n")
 
 
 # The command line

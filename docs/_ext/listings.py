@@ -73,7 +73,8 @@ def table(paths: list[str]) -> list[str]:
 
 def path_of(module: str, name: str) -> str:
     """Return the shortest path of a name: that of the package, if it is public there."""
-    return f"pointchart.{name}" if pointchart.MODULE_OF.get(name) == module.split(".")[1] else f"{module}.{name}"
+    is_public = getattr(pointchart, name, None) is getattr(import_module(module), name)
+    return f"pointchart.{name}" if is_public else f"{module}.{name}"
 
 
 def parsed(directive: Directive, lines: list[str]) -> list[nodes.Node]:

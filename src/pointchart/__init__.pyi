@@ -1,0 +1,125 @@
+"""The public names, each with the module that it is imported from when it is first asked for: the one list of them."""
+
+from .boundary import (
+    BoundaryScores as BoundaryScores,
+    Candidate as Candidate,
+    FoundBoundary as FoundBoundary,
+    angular_gaps as angular_gaps,
+    anticlockwise as anticlockwise,
+    boundary_scores as boundary_scores,
+    centripetal_steps as centripetal_steps,
+    chord_length_on_circle as chord_length_on_circle,
+    chord_length_steps as chord_length_steps,
+    find_boundary as find_boundary,
+    hull_test as hull_test,
+    on_circle as on_circle,
+    on_polygon as on_polygon,
+    on_square as on_square,
+    order_by_halves as order_by_halves,
+    quarter_places as quarter_places,
+    sharpest_places as sharpest_places,
+    uniform_steps as uniform_steps,
+)
+from .certify import Certificate as Certificate, certify as certify
+from .chart import (
+    uv_free_boundary as uv_free_boundary,
+    uv_low_stretch as uv_low_stretch,
+    uv_of_points as uv_of_points,
+    uv_on_mesh as uv_on_mesh,
+)
+from .clock import StageClock as StageClock
+from .components import largest_component as largest_component
+from .curvature_swaps import (
+    swap_to_least_curvature as swap_to_least_curvature,
+    swap_to_least_gaussian_curvature as swap_to_least_gaussian_curvature,
+    swap_to_least_mean_curvature as swap_to_least_mean_curvature,
+    swap_to_least_turn as swap_to_least_turn,
+)
+from .dirichlet import Flattened as Flattened, minimize_dirichlet as minimize_dirichlet
+from .errors import (
+    FormatError as FormatError,
+    InputError as InputError,
+    PointchartError as PointchartError,
+    SolveError as SolveError,
+)
+from .fit import (
+    BSplineSurface as BSplineSurface,
+    fit_bspline as fit_bspline,
+    fit_radial as fit_radial,
+    interpolate_clough_tocher as interpolate_clough_tocher,
+)
+from .gaps import (
+    bridge_gaps as bridge_gaps,
+    leave_gaps_open as leave_gaps_open,
+    refuse_second_boundary as refuse_second_boundary,
+)
+from .intersections import self_intersections as self_intersections
+from .io import (
+    Scan as Scan,
+    read_loop as read_loop,
+    read_scan as read_scan,
+    write_curves as write_curves,
+    write_loop as write_loop,
+    write_mesh as write_mesh,
+    write_uv as write_uv,
+)
+from .links import Links as Links, link_stars as link_stars, trusted as trusted
+from .mesh import one_rings as one_rings
+from .multigrid import multigrid as multigrid
+from .neighbors import Neighborhoods as Neighborhoods, ball as ball, nearest as nearest, spacing as spacing
+from .parameterize import Parameterization as Parameterization, parameterize as parameterize
+from .pipeline import (
+    Reconstruction as Reconstruction,
+    parameterize_scan as parameterize_scan,
+    reconstruct as reconstruct,
+)
+from .prepare import Cloud as Cloud, prepare as prepare
+from .quality import (
+    area_distortions as area_distortions,
+    conformal_distortions as conformal_distortions,
+    l2_stretch as l2_stretch,
+    least_distance as least_distance,
+    linf_stretch as linf_stretch,
+    radius_ratios as radius_ratios,
+    stretches as stretches,
+    vertex_stretches as vertex_stretches,
+)
+from .recover import Recovered as Recovered, recover_links as recover_links
+from .relocate import (
+    Relocated as Relocated,
+    mesh_energy as mesh_energy,
+    relocate_points as relocate_points,
+    suspect_points as suspect_points,
+)
+from .reopen import parameterize_open as parameterize_open
+from .solve import (
+    Solution as Solution,
+    bicgstab as bicgstab,
+    cholesky as cholesky,
+    conjugate_gradient as conjugate_gradient,
+    direct as direct,
+    solve_fixed as solve_fixed,
+)
+from .stars import (
+    delaunay_star as delaunay_star,
+    nearest_star as nearest_star,
+    normals as normals,
+    smooth as smooth,
+)
+from .surface_io import (
+    read_cad as read_cad,
+    read_surface_json as read_surface_json,
+    write_cad as write_cad,
+    write_surface_json as write_surface_json,
+)
+from .surfacing import SurfacedScan as SurfacedScan, fit_scan as fit_scan
+from .survey import Survey as Survey, survey_scan as survey_scan
+from .swaps import Swapped as Swapped, keep_edges as keep_edges, swap_to_delaunay as swap_to_delaunay
+from .triangulate import triangulate as triangulate
+from .vicinity import Vicinity as Vicinity, explore as explore
+from .weights import (
+    mean_value as mean_value,
+    reciprocal_distance as reciprocal_distance,
+    shape_preserving as shape_preserving,
+    uniform as uniform,
+)
