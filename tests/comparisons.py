@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from pointchart._exact import orientation_signs
 from pointchart.mesh import half_edges
+from pointchart.plane.exact_signs import orientation_signs
 
 
 def edges_of(triangles):

@@ -6,11 +6,11 @@ from hypothesis import strategies as st
 from strategies import planar_discs, rotations, seeds
 
 from pointchart import shapes
-from pointchart._exact import orientation_signs
 from pointchart.assemble import assemble
 from pointchart.boundary import patchwork, perimeter
 from pointchart.certify import certify
 from pointchart.mesh import half_edges
+from pointchart.plane.exact_signs import orientation_signs
 
 BENDS = {
     "flat": lambda uv: np.c_[uv, 0 * uv[:, 0]],

@@ -30,12 +30,12 @@ from pointchart import (
     write_mesh,
 )
 from pointchart import chart as charts
-from pointchart._exact import is_simple, orientation_signs
 from pointchart.boundary import chord_length_on_circle
 from pointchart.chart import DIRECT_LIMIT, QUICK_TOLERANCES
 from pointchart.cli.choices import CHARTS, Chart
 from pointchart.dirichlet import first_flat
 from pointchart.pipeline import _check_proof
+from pointchart.plane.exact_signs import is_simple, orientation_signs
 from pointchart.quality import area_vectors
 from pointchart.refine import Meshed
 from pointchart.report import quality_report

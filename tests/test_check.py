@@ -5,10 +5,10 @@ from hypothesis import strategies as st
 from strategies import clouds, seeds
 
 from pointchart._check import check_loop, check_points
-from pointchart._exact import orientation_signs
 from pointchart._parallel import CHUNK, over_ranges
 from pointchart.errors import FormatError, InputError, PointchartError, SolveError, name_some, points_called
 from pointchart.morton import morton_order
+from pointchart.plane.exact_signs import orientation_signs
 
 SQUARE = np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]])
 

@@ -7,10 +7,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from pointchart._exact import orientation_signs
 from pointchart.errors import InputError
 from pointchart.fit import BSplineSurface, evaluate, tessellate
 from pointchart.mesh import boundary_loops, fans, half_edges
+from pointchart.plane.exact_signs import orientation_signs
 from pointchart.quality import area_vectors, radius_ratios
 
 UNIT = np.array([0.0, 0, 1, 1])

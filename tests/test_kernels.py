@@ -10,7 +10,6 @@ from hypothesis import strategies as st
 from strategies import integer_sets, seeds
 
 from pointchart import _kernels
-from pointchart._exact import orientation_signs
 from pointchart._kernels import assemble, coarsen, constrain, drafts, planes, recover, relocate, rims, sides, stars
 from pointchart._kernels import half_edges as half_edge_kernels
 from pointchart._kernels import multigrid as steps
@@ -22,6 +21,7 @@ from pointchart.hierarchy import split
 from pointchart.intersections import box_tree
 from pointchart.mesh import half_edges, one_rings, start_draft
 from pointchart.neighbors import BoxTree, Neighborhoods, nearest, spacing
+from pointchart.plane.exact_signs import orientation_signs
 from pointchart.shapes import disc, moebius, relief
 from pointchart.stars import delaunay_star, normals
 from pointchart.triangulate import triangulate

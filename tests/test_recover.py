@@ -5,12 +5,12 @@ from hypothesis import given, settings
 from strategies import planar_discs, rotations, seeds
 
 from pointchart import shapes
-from pointchart._exact import orientation_signs
 from pointchart.certify import certify
 from pointchart.links import Links, link_stars
 from pointchart.mesh import boundary_loops, half_edges, one_rings
 from pointchart.neighbors import Neighborhoods
 from pointchart.pipeline import reconstruct
+from pointchart.plane.exact_signs import orientation_signs
 from pointchart.recover import recover_links
 from pointchart.relocate import mesh_energy
 from pointchart.swaps import swap_to_delaunay

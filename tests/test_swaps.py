@@ -6,12 +6,12 @@ from hypothesis import strategies as st
 from scipy.spatial import Delaunay
 from strategies import flat, planar_discs, rotations, seeds
 
-from pointchart._exact import orientation_signs
 from pointchart.boundary.layout import chord_length_steps, on_circle
 from pointchart.certify import certify
 from pointchart.mesh import boundary_loops, half_edges, one_rings
 from pointchart.neighbors import nearest
 from pointchart.parameterize import parameterize
+from pointchart.plane.exact_signs import orientation_signs
 from pointchart.shapes import tube
 from pointchart.stars import delaunay_star
 from pointchart.swaps import swap_in_place, swap_to_delaunay

@@ -7,10 +7,10 @@ from hypothesis import strategies as st
 from scipy.spatial import Delaunay
 from strategies import convex_discs, planar_discs, seeds
 
-from pointchart._exact import orientation_signs
 from pointchart.boundary.layout import chord_length_steps, on_circle, on_polygon, on_square
 from pointchart.errors import InputError, SolveError
 from pointchart.mesh import boundary_loops, half_edges
+from pointchart.plane.exact_signs import orientation_signs
 from pointchart.shapes import disc
 from pointchart.triangulate import coinciding, separate, triangulate
 

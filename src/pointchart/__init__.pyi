@@ -100,12 +100,7 @@ from .solve import (
     direct as direct,
     solve_fixed as solve_fixed,
 )
-from .stars import (
-    delaunay_star as delaunay_star,
-    nearest_star as nearest_star,
-    normals as normals,
-    smooth as smooth,
-)
+from .stars import delaunay_star as delaunay_star, nearest_star as nearest_star, normals as normals, smooth as smooth
 from .surface_io import (
     read_cad as read_cad,
     read_surface_json as read_surface_json,

@@ -6,13 +6,13 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ._check import check_loop, check_points, check_triangles
-from ._exact import is_simple, orientation_signs
 from ._kernels.half_edges import count_parts, measure_edges
 from ._parallel import over_ranges
 from .boundary import is_same_loop
 from .errors import InputError
 from .mesh import HalfEdges, boundary_loops, fans, half_edges
 from .neighbors import spacing as local_spacing
+from .plane.exact_signs import is_simple, orientation_signs
 from .triangulate import coinciding
 from .typing import UV, Floats, Loop, Points
 

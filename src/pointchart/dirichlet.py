@@ -7,8 +7,8 @@ import scipy.sparse as sp
 from numpy.typing import ArrayLike
 
 from ._check import check_loop, check_points, check_triangles
-from ._exact import is_simple, orientation_signs
 from .errors import InputError
+from .plane.exact_signs import is_simple, orientation_signs
 from .quality import area_vectors
 from .solve import Direct, Solution
 from .typing import UV, Floats, Indices, Loop, Mask, Points, Triangles

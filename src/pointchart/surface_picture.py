@@ -12,19 +12,7 @@ from .errors import InputError
 from .fit import Surface, curvatures, evaluate, normals
 from .fit.deviation import Deviation, deviation_table
 from .io import check_output
-from .picture import (
-    ACCENT,
-    FAINT,
-    INK,
-    PAPER,
-    PICTURE_SUFFIXES,
-    STONE,
-    lit,
-    number,
-    paint_image,
-    save,
-    style_bar,
-)
+from .picture import ACCENT, FAINT, INK, PAPER, PICTURE_SUFFIXES, STONE, lit, number, paint_image, save, style_bar
 from .scene import Scene, least_turning, look_at, reflection_angles
 from .typing import Floats, Points
 

@@ -6,7 +6,6 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ._check import check_points
-from ._exact import is_simple
 from .bridges import Bridge
 from .chart import ChartRule, uv_free_boundary, uv_low_stretch
 from .clock import StageClock
@@ -18,7 +17,8 @@ from .fit.refine import check_tolerance
 from .gaps import GapRule, Rims, leave_gaps_open, refuse_second_boundary
 from .mesh import boundary_loops, half_edges
 from .pipeline import LayoutRule, Reconstruction, reconstruct
-from .surface_io.checks import signed_area
+from .plane.exact_signs import is_simple
+from .plane.polygons import signed_area
 from .typing import UV, Points, Triangles
 
 FREE_MOST = 100_000  # points up to which a free boundary costs minutes at most; beyond, low stretch on the circle

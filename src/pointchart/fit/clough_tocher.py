@@ -7,7 +7,6 @@ import scipy.sparse as sp
 from numpy.typing import ArrayLike
 
 from .._check import check_points, check_triangles, check_uv
-from .._exact import orientation_signs
 from .._kernels import clough_tocher as kernels
 from .._parallel import over_ranges
 from ..certify import certify
@@ -15,6 +14,7 @@ from ..errors import InputError, name_some
 from ..intersections import box_tree
 from ..mesh import HalfEdges, boundary_loops, half_edges
 from ..morton import morton_order
+from ..plane.exact_signs import orientation_signs
 from ..quality import edge_lengths
 from ..triangulate import coinciding
 from ..typing import UV, Floats, Indices, Points, Triangles

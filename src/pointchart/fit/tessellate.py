@@ -7,10 +7,10 @@ import scipy.sparse as sp
 from numpy.typing import ArrayLike
 from scipy.spatial import cKDTree
 
-from .._exact import is_simple
 from .._kernels.constrain import constrain
 from ..errors import InputError
 from ..mesh import start_draft
+from ..plane.exact_signs import is_simple
 from ..swaps import swap_to_delaunay
 from ..triangulate import coinciding, triangulate
 from ..typing import UV, Floats, Indices, Mask, Points, Triangles

@@ -8,6 +8,7 @@ from numpy.typing import ArrayLike
 from ..errors import InputError, name_some
 from ..fit import BSplineSurface
 from ..fit.knots import check_clamped
+from ..plane.polygons import signed_area
 from ..typing import UV, Floats, Mask
 
 
@@ -63,13 +64,6 @@ def _check_loop(i: int, loop: ArrayLike, domain: Floats) -> UV:
         sense = "the outer loop runs anticlockwise" if i == 0 else "a hole runs clockwise"
         raise InputError(f"loop {i} has the signed area {area:g}, but {sense}; reverse it")
     return array
-
-
-def signed_area(loop: UV) -> float:
-    """Return the area of a polygon, positive if it runs anticlockwise."""
-    a = loop - loop[0]
-    b = np.roll(a, -1, axis=0)
-    return float((a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]).sum() / 2.0)
 
 
 def is_inside(loops: Sequence[UV], uv: UV) -> Mask:

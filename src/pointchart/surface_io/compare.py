@@ -8,8 +8,9 @@ import numpy as np
 from ..errors import FormatError
 from ..fit import BSplineSurface, evaluate
 from ..io.source import AnyPath
+from ..plane.polygons import signed_area
 from ..typing import UV
-from .checks import is_inside, signed_area
+from .checks import is_inside
 from .face import size_of
 from .occ import occ
 from .trims import Edge

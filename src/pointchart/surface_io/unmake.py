@@ -7,8 +7,8 @@ import numpy as np
 from ..errors import FormatError
 from ..fit import BSplineSurface
 from ..io.source import AnyPath
+from ..plane.polygons import signed_area
 from ..typing import UV, Floats
-from .checks import signed_area
 from .occ import occ
 
 SAMPLES = 8  # points on each span of a trim curve that is no line

@@ -4,9 +4,9 @@ from fractions import Fraction
 
 import numpy as np
 
-from ._kernels.crossings import UNSURE, find_crossing, sure_signs
-from ._parallel import over_ranges
-from .typing import UV, Indices, Triangles
+from .._kernels.plane.crossings import UNSURE, find_crossing, sure_signs
+from .._parallel import over_ranges
+from ..typing import UV, Indices, Triangles
 
 # Shewchuk 1997: a computed sign is right if the determinant exceeds (3 + 16 eps) eps times the sum of its terms.
 FILTER = (3.0 + 16.0 * 2.0**-53) * 2.0**-53

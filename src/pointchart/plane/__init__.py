@@ -1,0 +1,1 @@
+"""Signs and polygons in the plane."""
