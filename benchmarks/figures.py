@@ -26,11 +26,11 @@ from rabbit import rabbit
 
 from pointchart.boundary import chord_length_steps, on_circle, order_by_halves
 from pointchart.camera import camera
-from pointchart.neighbors import Neighborhoods, ball
 from pointchart.parameterize import parameterize
 from pointchart.picture import ACCENT, INK, STONE, paint_loop, paint_triangles, paint_wires
+from pointchart.points.neighbors import Neighborhoods, ball
+from pointchart.points.stars import delaunay_star
 from pointchart.shapes import Shape, add_noise, disc
-from pointchart.stars import delaunay_star
 from pointchart.swaps import swap_to_delaunay
 from pointchart.triangulate import triangulate
 from pointchart.typing import UV, Loop, Points, Triangles

@@ -24,7 +24,7 @@ from scipy.spatial import cKDTree
 from pointchart.boundary.layout import chord_length_steps, on_circle
 from pointchart.certify import certify
 from pointchart.mesh import half_edges
-from pointchart.neighbors import ball, spacing
+from pointchart.points.neighbors import ball, spacing
 from pointchart.quality import least_distance
 from pointchart.shapes import Shape, add_noise
 from pointchart.solve import Solved, bicgstab, solve_fixed

@@ -12,11 +12,11 @@ import scipy.sparse as sp
 from pointchart.boundary.layout import chord_length_steps, on_circle
 from pointchart.errors import InputError
 from pointchart.io import read_loop, read_scan
-from pointchart.neighbors import Neighborhoods, ball
 from pointchart.parameterize import cut_points, parameterize
+from pointchart.points.neighbors import Neighborhoods, ball
+from pointchart.points.stars import delaunay_star
 from pointchart.shapes import hemisphere, sculpture, tube
 from pointchart.solve import Solved, Solver, bicgstab
-from pointchart.stars import delaunay_star
 from pointchart.typing import UV, Floats, Indices, Loop, Points, Triangles
 from pointchart.weights import WeightScheme, reciprocal_distance, shape_preserving, uniform
 

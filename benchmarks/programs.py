@@ -47,7 +47,7 @@ def pointchart(points):
     from scipy.spatial import cKDTree
 
     from pointchart import StageClock, reconstruct
-    from pointchart.morton import morton_order
+    from pointchart.points.morton import morton_order
 
     forget_peak()
     clock, before = StageClock(), memory("VmRSS")

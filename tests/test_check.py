@@ -7,8 +7,8 @@ from strategies import clouds, seeds
 from pointchart._check import check_loop, check_points
 from pointchart._parallel import CHUNK, over_ranges
 from pointchart.errors import FormatError, InputError, PointchartError, SolveError, name_some, points_called
-from pointchart.morton import morton_order
 from pointchart.plane.exact_signs import orientation_signs
+from pointchart.points.morton import morton_order
 
 SQUARE = np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]])
 

@@ -18,8 +18,8 @@ from pointchart.curvature_swaps import (
     swap_to_least_turn,
 )
 from pointchart.mesh import boundary_loops, half_edges
-from pointchart.neighbors import spacing
 from pointchart.pipeline import reconstruct
+from pointchart.points.neighbors import spacing
 from pointchart.swaps import swap_to_delaunay
 
 

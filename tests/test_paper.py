@@ -14,11 +14,11 @@ from scipy.spatial import cKDTree
 
 from pointchart.boundary.layout import chord_length_steps, on_circle
 from pointchart.io import read_loop, read_scan
-from pointchart.neighbors import Neighborhoods, ball
 from pointchart.parameterize import Parameterization, parameterize
+from pointchart.points.neighbors import Neighborhoods, ball
+from pointchart.points.stars import delaunay_star
 from pointchart.quality import least_distance
 from pointchart.solve import Solved, bicgstab, solve_fixed
-from pointchart.stars import delaunay_star
 from pointchart.typing import Floats, Loop, Points
 from pointchart.weights import reciprocal_distance, shape_preserving, uniform
 

@@ -7,11 +7,11 @@ from strategies import flat, planar_discs, rotations, seeds, systems
 from pointchart.boundary.layout import chord_length_steps, on_circle, on_square
 from pointchart.errors import InputError, SolveError
 from pointchart.mesh import one_rings
-from pointchart.neighbors import Neighborhoods, ball, from_pairs, nearest
 from pointchart.parameterize import check_connected, cut_points, parameterize
+from pointchart.points.neighbors import Neighborhoods, ball, from_pairs, nearest
+from pointchart.points.stars import delaunay_star
 from pointchart.shapes import disc, relief
 from pointchart.solve import bicgstab, direct, solve_fixed
-from pointchart.stars import delaunay_star
 from pointchart.weights import normalize, reciprocal_distance, uniform
 
 

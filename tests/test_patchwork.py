@@ -10,7 +10,7 @@ from strategies import planar_discs, seeds
 from pointchart import InputError, delaunay_star, nearest, shapes, spacing
 from pointchart.boundary import agreed_patchwork, is_same_loop, patchwork, rims
 from pointchart.mesh import half_edges
-from pointchart.stars import break_ties
+from pointchart.points.stars import break_ties
 
 STRIPS = {
     "narrow": lambda: shapes.moebius(12, 2),

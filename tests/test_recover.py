@@ -8,14 +8,14 @@ from pointchart import shapes
 from pointchart.certify import certify
 from pointchart.links import Links, link_stars
 from pointchart.mesh import boundary_loops, half_edges, one_rings
-from pointchart.neighbors import Neighborhoods
 from pointchart.pipeline import reconstruct
 from pointchart.plane.exact_signs import orientation_signs
+from pointchart.points.neighbors import Neighborhoods
+from pointchart.points.surroundings import explore
 from pointchart.recover import recover_links
 from pointchart.relocate import mesh_energy
 from pointchart.swaps import swap_to_delaunay
 from pointchart.triangulate import triangulate
-from pointchart.vicinity import explore
 
 
 def links_of(triangles, n):

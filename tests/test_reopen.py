@@ -3,12 +3,12 @@ import pytest
 
 from pointchart import shapes
 from pointchart.links import link_stars, trusted
-from pointchart.neighbors import from_pairs
 from pointchart.parameterize import parameterize
 from pointchart.pipeline import reconstruct
+from pointchart.points.neighbors import from_pairs
+from pointchart.points.surroundings import explore
 from pointchart.reopen import COLLAPSED, _carried_on, parameterize_open
 from pointchart.triangulate import coinciding
-from pointchart.vicinity import explore
 
 
 def parts_of(shape):

@@ -8,7 +8,7 @@ from strategies import systems
 
 from pointchart.errors import SolveError
 from pointchart.mesh import one_rings
-from pointchart.neighbors import ball, nearest
+from pointchart.points.neighbors import ball, nearest
 from pointchart.shapes import disc, relief, shuffle
 from pointchart.solve import (
     Direct,

@@ -9,10 +9,10 @@ from pointchart.boundary.layout import on_circle
 from pointchart.errors import InputError
 from pointchart.links import link_stars, trusted
 from pointchart.mesh import one_rings
-from pointchart.neighbors import Neighborhoods, ball, nearest
 from pointchart.parameterize import parameterize
+from pointchart.points.neighbors import Neighborhoods, ball, nearest
+from pointchart.points.stars import delaunay_star
 from pointchart.shapes import disc
-from pointchart.stars import delaunay_star
 from pointchart.weights import mean_value, normalize, reciprocal_distance, shape_preserving, uniform
 
 ORDERED = [mean_value, shape_preserving]

@@ -28,7 +28,7 @@ from .chart import (
     uv_on_mesh as uv_on_mesh,
 )
 from .clock import StageClock as StageClock
-from .components import largest_component as largest_component
+from .points.parts import largest_component as largest_component
 from .curvature_swaps import (
     swap_to_least_curvature as swap_to_least_curvature,
     swap_to_least_gaussian_curvature as swap_to_least_gaussian_curvature,
@@ -66,14 +66,14 @@ from .io import (
 from .links import Links as Links, link_stars as link_stars, trusted as trusted
 from .mesh import one_rings as one_rings
 from .multigrid import multigrid as multigrid
-from .neighbors import Neighborhoods as Neighborhoods, ball as ball, nearest as nearest, spacing as spacing
+from .points.neighbors import Neighborhoods as Neighborhoods, ball as ball, nearest as nearest, spacing as spacing
 from .parameterize import Parameterization as Parameterization, parameterize as parameterize
 from .pipeline import (
     Reconstruction as Reconstruction,
     parameterize_scan as parameterize_scan,
     reconstruct as reconstruct,
 )
-from .prepare import Cloud as Cloud, prepare as prepare
+from .points.cloud import Cloud as Cloud, prepare as prepare
 from .quality import (
     area_distortions as area_distortions,
     conformal_distortions as conformal_distortions,
@@ -100,7 +100,12 @@ from .solve import (
     direct as direct,
     solve_fixed as solve_fixed,
 )
-from .stars import delaunay_star as delaunay_star, nearest_star as nearest_star, normals as normals, smooth as smooth
+from .points.stars import (
+    delaunay_star as delaunay_star,
+    nearest_star as nearest_star,
+    normals as normals,
+    smooth as smooth,
+)
 from .surface_io import (
     read_cad as read_cad,
     read_surface_json as read_surface_json,
@@ -111,7 +116,7 @@ from .surfacing import SurfacedScan as SurfacedScan, fit_scan as fit_scan
 from .survey import Survey as Survey, survey_scan as survey_scan
 from .swaps import Swapped as Swapped, keep_edges as keep_edges, swap_to_delaunay as swap_to_delaunay
 from .triangulate import triangulate as triangulate
-from .vicinity import Vicinity as Vicinity, explore as explore
+from .points.surroundings import Vicinity as Vicinity, explore as explore
 from .weights import (
     mean_value as mean_value,
     reciprocal_distance as reciprocal_distance,

@@ -11,8 +11,8 @@ from ._parallel import over_ranges
 from .boundary import is_same_loop
 from .errors import InputError
 from .mesh import HalfEdges, boundary_loops, fans, half_edges
-from .neighbors import spacing as local_spacing
 from .plane.exact_signs import is_simple, orientation_signs
+from .points.neighbors import spacing as local_spacing
 from .triangulate import coinciding
 from .typing import UV, Floats, Loop, Points
 

@@ -13,9 +13,9 @@ from .dirichlet import minimize_dirichlet
 from .errors import InputError, PointchartError, SolveError
 from .mesh import one_rings
 from .multigrid import multigrid
-from .neighbors import Neighborhoods
 from .parameterize import Parameterization, parameterize, solve_map
 from .plane.exact_signs import orientation_signs
+from .points.neighbors import Neighborhoods
 from .quality import l2_stretch, vertex_stretches
 from .refine import Meshed
 from .reopen import openings

@@ -15,7 +15,7 @@ from ._check import check_points, check_triangles
 from ._kernels.curvature_swaps import GAUSSIAN, MEAN, NORMALS, PRINCIPAL, curvature_swaps, sum_curvature
 from .errors import InputError
 from .mesh import half_edges
-from .neighbors import spacing
+from .points.neighbors import spacing
 from .swaps import Swapped
 from .typing import Triangles
 

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 from ._check import check_points, check_triangles
 from ._kernels.intersections import find_meetings
 from ._parallel import over_ranges
-from .morton import morton_order
+from .points.morton import morton_order
 from .typing import Floats, Indices, Points, Triangles
 
 Vector: TypeAlias = list[int]

@@ -8,8 +8,8 @@ import scipy.sparse as sp
 from ._kernels.links import agreement
 from ._parallel import over_ranges
 from .errors import InputError
-from .neighbors import Neighborhoods
 from .parameterize import cut_points
+from .points.neighbors import Neighborhoods
 from .typing import Floats, Indices, Loop, Mask, Points, Weights
 from .weights import WeightScheme, normalize, reciprocal_distance
 
@@ -54,8 +54,8 @@ def link_stars(star: Neighborhoods, *, also: Neighborhoods | None = None) -> Lin
 
     Examples
     --------
-    >>> from pointchart.neighbors import nearest
-    >>> from pointchart.stars import delaunay_star
+    >>> from pointchart.points.neighbors import nearest
+    >>> from pointchart.points.stars import delaunay_star
     >>> plus = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0]]
     >>> links = link_stars(delaunay_star(plus, nearest(plus, 4)))
     >>> links.neighborhoods.sizes, links.trust.min()
@@ -91,8 +91,8 @@ def tie_down(points: Points, links: Links, loop: Loop) -> Links:
 
     Examples
     --------
-    >>> from pointchart.neighbors import nearest
-    >>> from pointchart.stars import delaunay_star
+    >>> from pointchart.points.neighbors import nearest
+    >>> from pointchart.points.stars import delaunay_star
     >>> plus = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0], [0, 0, 9]])
     >>> star = delaunay_star(plus[:5], nearest(plus[:5], 4))
     >>> apart = Neighborhoods(np.append(star.indptr, 16), star.indices, None, np.append(star.is_open, True))
@@ -121,8 +121,8 @@ def disputed_links(star: Neighborhoods) -> Indices:
 
     Examples
     --------
-    >>> from pointchart.neighbors import nearest
-    >>> from pointchart.stars import delaunay_star
+    >>> from pointchart.points.neighbors import nearest
+    >>> from pointchart.points.stars import delaunay_star
     >>> plus = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0]]
     >>> disputed_links(delaunay_star(plus, nearest(plus, 4)))
     array([0, 0, 0, 0, 0])

@@ -9,7 +9,7 @@ from ._kernels.drafts import Draft
 from ._kernels.half_edges import count_fans, order_rings, pair_half_edges
 from ._kernels.unsigned import unsigned
 from .errors import InputError
-from .neighbors import Neighborhoods
+from .points.neighbors import Neighborhoods
 from .typing import Indices, Loop, Points, Triangles
 
 

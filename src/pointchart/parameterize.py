@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 from ._check import check_convex, check_loop, check_neighbors, check_points
 from ._kernels.graphs import dominators
 from .errors import InputError, SolveError
-from .neighbors import Neighborhoods
+from .points.neighbors import Neighborhoods
 from .solve import Solution, Solver, solve_fixed
 from .typing import UV, Indices, Loop, Points
 from .weights import WeightScheme, mean_value
@@ -83,7 +83,7 @@ def parameterize(
 
     Examples
     --------
-    >>> from pointchart.neighbors import nearest
+    >>> from pointchart.points.neighbors import nearest
     >>> square = [[0, 0, 0], [2, 0, 0], [2, 2, 0], [0, 2, 0], [1, 1, 5]]
     >>> corners = [[0, 0], [1, 0], [1, 1], [0, 1]]
     >>> from pointchart.weights import uniform

@@ -14,16 +14,16 @@ from .clock import StageClock
 from .errors import PointchartError, SolveError, points_called
 from .gaps import GapRule, Rims, bridge_gaps, check_torn, refuse_second_boundary
 from .links import disputed_links, link_stars, tie_down, trusted
-from .neighbors import Neighborhoods, nearest
 from .parameterize import Parameterization, parameterize
-from .prepare import Cloud
+from .points.cloud import Cloud
+from .points.neighbors import Neighborhoods, nearest
+from .points.stars import nearest_star
+from .points.surroundings import NEAREST
 from .refine import Meshed, SwapRule, mesh_by_agreement, mesh_by_links, mesh_once
 from .solve import Solver, default_solver
-from .stars import nearest_star
 from .survey import Survey, survey_scan
 from .swaps import Swapped, keep_edges, swap_off_sides, swap_to_delaunay
 from .typing import UV, Indices, Loop, Points, Triangles
-from .vicinity import NEAREST
 from .weights import WeightScheme, mean_value
 
 TRIALS = 3  # loops tried, the best first, until a mesh stands

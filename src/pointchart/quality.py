@@ -7,8 +7,8 @@ import numpy as np
 from ._kernels.quality import measure_areas, measure_plane_areas, measure_shapes, measure_stretches
 from ._parallel import over_ranges
 from .mesh import HalfEdges
-from .morton import morton_order
-from .neighbors import BoxTree
+from .points.morton import morton_order
+from .points.neighbors import BoxTree
 from .typing import UV, Floats, Indices, Points, Triangles
 
 

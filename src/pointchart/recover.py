@@ -55,8 +55,8 @@ def recover_links(points: Points, uv: UV, triangles: Triangles, links: Links) ->
     Examples
     --------
     >>> from pointchart.links import link_stars
-    >>> from pointchart.neighbors import nearest
-    >>> from pointchart.stars import delaunay_star
+    >>> from pointchart.points.neighbors import nearest
+    >>> from pointchart.points.stars import delaunay_star
     >>> kite = np.array([[0.0, 0, 0], [9, 0, 0], [4, 1, 0], [4, -1, 0]])
     >>> links = link_stars(delaunay_star(kite, nearest(kite, 3)))
     >>> recover_links(kite, kite[:, :2].copy(), np.array([[0, 1, 2], [1, 0, 3]]), links).triangles.tolist()

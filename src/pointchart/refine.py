@@ -11,8 +11,8 @@ from .boundary import Patchwork
 from .clock import StageClock
 from .links import Links, trusted
 from .mesh import start_draft
-from .neighbors import Neighborhoods
 from .parameterize import Parameterization, parameterize
+from .points.neighbors import Neighborhoods
 from .recover import recover_links
 from .relocate import least_gain, relocate_in_place, suspect_points
 from .reopen import parameterize_open

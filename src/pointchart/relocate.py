@@ -11,7 +11,7 @@ from ._kernels.relocate import JOURNAL
 from ._kernels.relocate import relocate as relocate_kernel
 from ._parallel import over_ranges
 from .mesh import start_draft
-from .neighbors import Neighborhoods
+from .points.neighbors import Neighborhoods
 from .typing import Indices, Mask, Points, Triangles
 
 LEAST_GAIN = 1e-9  # of the mean energy of a triangle: smaller ones are rounding, and might move points for ever
@@ -57,7 +57,7 @@ def relocate_points(points: Points, triangles: Triangles, around: Neighborhoods,
 
     Examples
     --------
-    >>> from pointchart.neighbors import nearest
+    >>> from pointchart.points.neighbors import nearest
     >>> square = np.array([[0.0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0], [3, 2, 0]])
     >>> astray = np.array([[0, 1, 2], [0, 2, 4], [2, 3, 4], [3, 0, 4]])  # the last point lies in the first triangle
     >>> moved = relocate_points(square, astray, nearest(square, 4), np.array([4]))

@@ -8,8 +8,8 @@ from scipy.sparse import csr_matrix
 from scipy.sparse.csgraph import dijkstra
 
 from .errors import PointchartError
-from .neighbors import Neighborhoods
 from .parameterize import Parameterization, parameterize, solve_map
+from .points.neighbors import Neighborhoods
 from .solve import Solver, default_solver
 from .typing import UV, Floats, Loop, Points
 from .weights import WeightScheme, fixed, normalize
@@ -75,7 +75,7 @@ def parameterize_open(
 
     Examples
     --------
-    >>> from pointchart.neighbors import nearest
+    >>> from pointchart.points.neighbors import nearest
     >>> from pointchart.weights import uniform
     >>> square = np.array([[0.0, 0, 0], [2, 0, 0], [2, 2, 0], [0, 2, 0], [1, 1, 5]])
     >>> corners = np.array([[0.0, 0], [1, 0], [1, 1], [0, 1]])

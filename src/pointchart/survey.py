@@ -20,11 +20,11 @@ from .boundary import (
     tightened,
 )
 from .clock import StageClock
-from .components import check_one_piece
 from .errors import InputError, points_called
-from .prepare import Cloud, prepare
+from .points.cloud import Cloud, prepare
+from .points.parts import check_one_piece
+from .points.surroundings import Vicinity, explore
 from .typing import Loop, Points
-from .vicinity import Vicinity, explore
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -8,7 +8,7 @@ from ._check import check_loop
 from ._kernels.peel import peel
 from .errors import InputError, SolveError
 from .mesh import half_edges
-from .morton import morton_order
+from .points.morton import morton_order
 from .typing import UV, Indices, Loop, Triangles
 
 GOLDEN_RATIO = 0.6180339887498949

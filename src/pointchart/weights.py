@@ -13,7 +13,7 @@ from ._kernels.mean_value import mean_value as mean_value_kernel
 from ._kernels.shape_preserving import shape_preserving as shape_preserving_kernel
 from ._parallel import over_ranges
 from .errors import InputError
-from .neighbors import Neighborhoods
+from .points.neighbors import Neighborhoods
 from .typing import Floats, Points, Weights
 
 LEAST_TANGENT = 1e-14  # weights stay positive between neighbours in one direction
@@ -119,8 +119,8 @@ def mean_value(points: Points, neighborhoods: Neighborhoods) -> Weights:
 
     Examples
     --------
-    >>> from pointchart.neighbors import nearest
-    >>> from pointchart.stars import delaunay_star
+    >>> from pointchart.points.neighbors import nearest
+    >>> from pointchart.points.stars import delaunay_star
     >>> import numpy as np
     >>> plus = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0]])
     >>> mean_value(plus, delaunay_star(plus, nearest(plus, 4)))[:4].round(12)
@@ -166,8 +166,8 @@ def shape_preserving(points: Points, neighborhoods: Neighborhoods) -> Weights:
 
     Examples
     --------
-    >>> from pointchart.neighbors import nearest
-    >>> from pointchart.stars import delaunay_star
+    >>> from pointchart.points.neighbors import nearest
+    >>> from pointchart.points.stars import delaunay_star
     >>> import numpy as np
     >>> kite = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [-3, 0, 0], [0, -1, 0]])
     >>> shape_preserving(kite, delaunay_star(kite, nearest(kite, 4)))[:4].round(12).tolist()

@@ -11,8 +11,8 @@ from .._kernels.sides import survey_sides
 from .._kernels.unsigned import unsigned
 from .._parallel import over_ranges
 from ..errors import InputError
-from ..neighbors import Neighborhoods
-from ..stars import FADING, STEEPEST, Sides, normals
+from ..points.neighbors import Neighborhoods
+from ..points.stars import FADING, STEEPEST, Sides, normals
 from ..typing import Floats, Mask, Points, Triangles
 
 WIDE_STAR = 1.0  # circumradius of a star in spacings where the doubt begins: that of an even sampling is 0.6
@@ -95,8 +95,8 @@ def boundary_scores(
     Examples
     --------
     >>> from pointchart.boundary import agreed_patchwork
-    >>> from pointchart.neighbors import nearest
-    >>> from pointchart.stars import delaunay_star
+    >>> from pointchart.points.neighbors import nearest
+    >>> from pointchart.points.stars import delaunay_star
     >>> plus = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0]])
     >>> near = nearest(plus, 4)
     >>> star = delaunay_star(plus, near)
@@ -138,7 +138,7 @@ def angular_gaps(points: ArrayLike, around: Neighborhoods) -> Floats:
 
     Examples
     --------
-    >>> from pointchart.neighbors import nearest
+    >>> from pointchart.points.neighbors import nearest
     >>> plus = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0]]
     >>> np.rad2deg(angular_gaps(plus, nearest(plus, 4))[:2]).round(6)
     array([ 90., 270.])
@@ -171,8 +171,8 @@ def hull_test(star: Neighborhoods) -> Mask:
 
     Examples
     --------
-    >>> from pointchart.neighbors import nearest
-    >>> from pointchart.stars import delaunay_star
+    >>> from pointchart.points.neighbors import nearest
+    >>> from pointchart.points.stars import delaunay_star
     >>> plus = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0]]
     >>> hull_test(delaunay_star(plus, nearest(plus, 4))).tolist()
     [False, True, True, True, True]

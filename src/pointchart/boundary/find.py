@@ -6,10 +6,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .._check import check_points
-from ..components import check_one_piece
 from ..errors import InputError
+from ..points.parts import check_one_piece
+from ..points.surroundings import Vicinity, explore
 from ..typing import Floats, Loop, Mask, Points
-from ..vicinity import Vicinity, explore
 from .detect import BoundaryScores, boundary_scores
 from .orient import anticlockwise
 from .patchwork import Patchwork, agreed_patchwork

@@ -3,7 +3,7 @@
 import numpy as np
 
 from ..errors import InputError
-from ..neighbors import search
+from ..points.neighbors import search
 from ..typing import Loop, Points
 
 NEARBY_STEPS = 16

@@ -19,7 +19,7 @@ from .._kernels.rims import (
 )
 from .._parallel import over_ranges
 from ..errors import InputError
-from ..neighbors import Neighborhoods
+from ..points.neighbors import Neighborhoods
 from ..typing import Floats, Indices, Loop, Mask, Triangles
 
 LEAST_VOTES, ALL_VOTES = 2, 3

@@ -7,11 +7,13 @@ from pathlib import Path
 import numpy as np
 import typer
 
-from .. import boundary, chart, curvature_swaps, gaps, neighbors, stars, swaps, vicinity, weights
+from .. import boundary, chart, curvature_swaps, gaps, swaps, weights
 from ..chart import ChartRule
 from ..gaps import GapRule
-from ..neighbors import Neighborhoods
 from ..pipeline import Connect, LayoutRule
+from ..points import neighbors, stars
+from ..points import surroundings as vicinity
+from ..points.neighbors import Neighborhoods
 from ..refine import SwapRule
 from ..typing import UV, Floats, Indices, Loop, Points
 from ..weights import WeightScheme

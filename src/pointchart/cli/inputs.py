@@ -7,10 +7,10 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..components import largest_component
 from ..errors import InputError
 from ..io import Scan, check_output, read_loop, read_scan
 from ..page import PAGE_SUFFIXES
+from ..points.parts import largest_component
 from ..typing import UV, Indices, Loop, Points
 from .words import Component
 

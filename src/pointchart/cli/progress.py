@@ -63,9 +63,11 @@ def _tell(name: str) -> None:
 
 def _warn_of_first_run() -> None:
     """Say why the first run on a machine waits: the kernels are compiled once and kept."""
-    from .._kernels.stars import delaunay_stars
+    from .._kernels.points.inversion import delaunay_stars
 
     stats = getattr(delaunay_stars, "stats", None)  # none where compiling is turned off
-    kept = f"stars.delaunay_stars-{delaunay_stars.__code__.co_firstlineno}.*.nbi"
+    kept = (
+        f"{delaunay_stars.__module__.rpartition('.')[2]}.delaunay_stars-{delaunay_stars.__code__.co_firstlineno}.*.nbi"
+    )
     if stats is not None and not any(Path(stats.cache_path).glob(kept)):
         print("pointchart: first run on this machine: compiling its kernels, once, some 35 seconds", file=sys.stderr)

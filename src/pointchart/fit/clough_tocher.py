@@ -13,8 +13,8 @@ from ..certify import certify
 from ..errors import InputError, name_some
 from ..intersections import box_tree
 from ..mesh import HalfEdges, boundary_loops, half_edges
-from ..morton import morton_order
 from ..plane.exact_signs import orientation_signs
+from ..points.morton import morton_order
 from ..quality import edge_lengths
 from ..triangulate import coinciding
 from ..typing import UV, Floats, Indices, Points, Triangles

@@ -13,8 +13,8 @@ from .._kernels import radial as kernels
 from .._parallel import over_ranges
 from ..errors import InputError, SolveError
 from ..intersections import box_tree
-from ..morton import morton_order
-from ..neighbors import search
+from ..points.morton import morton_order
+from ..points.neighbors import search
 from ..solve import ONE_THREAD
 from ..triangulate import coinciding
 from ..typing import UV, Floats, Indices, Points

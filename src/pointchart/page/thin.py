@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..morton import morton_order
+from ..points.morton import morton_order
 from ..typing import Indices, Loop, Points, Triangles
 
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..errors import InputError, points_called
-from ..neighbors import Neighborhoods
+from ..points.neighbors import Neighborhoods
 from ..typing import Indices, Points, Weights
 from ..weights import WeightScheme
 
@@ -68,7 +68,7 @@ def around_point(
 
     Examples
     --------
-    >>> from pointchart.neighbors import nearest
+    >>> from pointchart.points.neighbors import nearest
     >>> from pointchart.weights import uniform
     >>> line = np.array([[0.0, 0, 0], [1, 0, 0], [3, 0, 0], [3, 1, 0], [9, 9, 9]])
     >>> around_point(line, 3, lambda points: nearest(points, 2), uniform, k=2).neighbors.tolist()

@@ -9,9 +9,9 @@ from threading import RLock
 import numpy as np
 import viser
 
-from ..neighbors import nearest
 from ..picture import STONE
-from ..stars import normals
+from ..points.neighbors import nearest
+from ..points.stars import normals
 from ..typing import UV, Floats, Indices, Loop, Points, Triangles
 from .around import Around
 from .frame import Frame, coarser, shades, spacing, stance, thinned

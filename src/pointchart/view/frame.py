@@ -3,7 +3,7 @@
 import numpy as np
 
 from ..camera import camera, upright_axes, upward
-from ..neighbors import Neighborhoods
+from ..points.neighbors import Neighborhoods
 from ..typing import Floats, Indices, Points, Triangles
 
 SIZE = 4.0  # diagonal of the scan on the page

@@ -5,8 +5,8 @@ from hypothesis import strategies as st
 from strategies import seeds
 
 from pointchart import InputError, PointchartError, largest_component, nearest, reconstruct, shapes, spacing
-from pointchart.components import APART, check_one_piece, label_parts
-from pointchart.neighbors import from_pairs
+from pointchart.points.neighbors import from_pairs
+from pointchart.points.parts import APART, check_one_piece, label_parts
 
 SHEET, PIECE = shapes.relief(400, seed=1), shapes.disc(150, seed=2)
 FAR = np.array([0, 0, 30.0])

@@ -4,11 +4,11 @@ from dataclasses import dataclass
 
 from numpy.typing import ArrayLike
 
-from ._check import check_points
+from .._check import check_points
+from ..typing import Floats, Points
 from .neighbors import BoxTree, Neighborhoods, rectangular
 from .neighbors import spacing as local_spacing
 from .stars import Sides, break_ties, smooth, star_and_sides
-from .typing import Floats, Points
 
 NEAREST = 20
 

@@ -6,9 +6,9 @@ from scipy.spatial import Delaunay
 from strategies import clouds, cocircular_sets, flat, integer_sets, planar_discs, rotations, seeds
 
 from pointchart.errors import InputError
-from pointchart.neighbors import Neighborhoods, ball, nearest
+from pointchart.points.neighbors import Neighborhoods, ball, nearest
+from pointchart.points.stars import STEEPEST, delaunay_star, nearest_star, normals, smooth
 from pointchart.shapes import add_noise, disc, fold, grid, hemisphere, relief
-from pointchart.stars import STEEPEST, delaunay_star, nearest_star, normals, smooth
 
 
 def star_pairs(star):

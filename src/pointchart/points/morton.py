@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from ._kernels.morton import morton_keys as keys_kernel
-from ._parallel import over_ranges
-from .typing import Floats, Indices
+from .._kernels.points.morton_curve import morton_keys as keys_kernel
+from .._parallel import over_ranges
+from ..typing import Floats, Indices
 
 
 def morton_order(points: Floats) -> Indices:

@@ -7,11 +7,11 @@ from strategies import clouds, seeds
 from pointchart.boundary.layout import chord_length_steps, on_circle
 from pointchart.certify import certify
 from pointchart.errors import InputError
-from pointchart.neighbors import nearest
 from pointchart.parameterize import parameterize
-from pointchart.prepare import prepare
+from pointchart.points.cloud import prepare
+from pointchart.points.neighbors import nearest
+from pointchart.points.stars import delaunay_star
 from pointchart.shapes import relief, sculpture, shuffle
-from pointchart.stars import delaunay_star
 from pointchart.swaps import swap_to_delaunay
 from pointchart.triangulate import triangulate
 

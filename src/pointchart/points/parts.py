@@ -3,13 +3,13 @@
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ._kernels.graphs import join_parts
-from .errors import InputError
+from .._kernels.graphs import join_parts
+from ..errors import InputError
+from ..typing import Floats, Indices, Points
+from .cloud import prepare
 from .neighbors import Neighborhoods, nearest
 from .neighbors import spacing as local_spacing
-from .prepare import prepare
-from .typing import Floats, Indices, Points
-from .vicinity import NEAREST
+from .surroundings import NEAREST
 
 APART = 10.0  # spacings
 

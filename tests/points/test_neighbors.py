@@ -5,9 +5,9 @@ from hypothesis import strategies as st
 from strategies import clouds, rotations, seeds
 
 from pointchart.errors import InputError
-from pointchart.neighbors import BoxTree, ball, from_pairs, nearest, rectangular, spacing
+from pointchart.points.neighbors import BoxTree, ball, from_pairs, nearest, rectangular, spacing
+from pointchart.points.stars import break_ties, delaunay_star, normals
 from pointchart.shapes import bent_sheet, disc, grid, hemisphere
-from pointchart.stars import break_ties, delaunay_star, normals
 
 
 def rows_of(neighborhoods):

@@ -6,13 +6,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ._check import check_neighbors, check_points
-from ._kernels.nearest import LEAF, bound_boxes, find_nearest, middle_distances
-from ._kernels.unsigned import unsigned
-from ._parallel import over_ranges
-from .errors import InputError
+from .._check import check_neighbors, check_points
+from .._kernels.points.box_tree import LEAF, bound_boxes, find_nearest, middle_distances
+from .._kernels.unsigned import unsigned
+from .._parallel import over_ranges
+from ..errors import InputError
+from ..typing import Floats, Indices, Mask, Points
 from .morton import morton_order
-from .typing import Floats, Indices, Mask, Points
 
 if TYPE_CHECKING:  # what a short run does not need is imported where it is used
     from scipy.spatial import cKDTree

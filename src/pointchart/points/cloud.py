@@ -5,9 +5,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ._check import check_points
+from .._check import check_points
+from ..typing import Indices, Points
 from .morton import morton_keys
-from .typing import Indices, Points
 
 
 @dataclass(frozen=True, slots=True, eq=False)

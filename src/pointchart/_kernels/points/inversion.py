@@ -10,7 +10,7 @@ import math
 import numpy as np
 from numba import njit
 
-from .planes import tangent_frame
+from .tangent_planes import tangent_frame
 
 OPEN_GAP_SINE = 1e-6  # a gap within 1e-6 rad of pi counts as open: rounding must not wrap a star across it
 FLAT_TURN_SINE = 1e-10  # neighbours on a common circle up to rounding: the middle one goes, so that a grid gives four

@@ -4,7 +4,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from strategies import clouds, seeds
 
-from pointchart.morton import morton_keys, morton_order
+from pointchart.points.morton import morton_keys, morton_order
 
 
 def interleaved(cell):

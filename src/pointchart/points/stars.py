@@ -5,12 +5,12 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ._check import check_neighbors, check_points
-from ._kernels.planes import fit_planes
-from ._kernels.stars import delaunay_stars as stars_kernel
-from ._parallel import over_ranges
+from .._check import check_neighbors, check_points
+from .._kernels.points.inversion import delaunay_stars as stars_kernel
+from .._kernels.points.tangent_planes import fit_planes
+from .._parallel import over_ranges
+from ..typing import Floats, Indices, Mask, Points
 from .neighbors import BoxTree, Neighborhoods
-from .typing import Floats, Indices, Mask, Points
 
 STEEPEST = 0.8  # sine of the steepest neighbour against the tangent plane; steeper ones lie on another sheet
 FADING = 0.8  # the farthest neighbours have 4% of the weight of the nearest in a plane: they may lie on another sheet
@@ -62,7 +62,7 @@ def normals(points: ArrayLike, around: Neighborhoods, *, fading: float = 0.0) ->
 
     Examples
     --------
-    >>> from pointchart.neighbors import nearest
+    >>> from pointchart.points.neighbors import nearest
     >>> corners = [[0, 0, 7], [1, 0, 7], [0, 1, 7], [1, 1, 7]]
     >>> abs(normals(corners, nearest(corners, 3)))[0]
     array([0., 0., 1.])
@@ -91,7 +91,7 @@ def smooth(points: ArrayLike, around: Neighborhoods) -> Points:
     Examples
     --------
     >>> from pointchart import shapes
-    >>> from pointchart.neighbors import nearest
+    >>> from pointchart.points.neighbors import nearest
     >>> noisy = shapes.add_noise(shapes.disc(500), sigma_in_spacings=0.5).points
     >>> bool(smooth(noisy, nearest(noisy, 20))[:, 2].std() < 0.5 * noisy[:, 2].std())
     True
@@ -129,7 +129,7 @@ def delaunay_star(points: ArrayLike, around: Neighborhoods, *, planes: Neighborh
 
     Examples
     --------
-    >>> from pointchart.neighbors import nearest
+    >>> from pointchart.points.neighbors import nearest
     >>> plus = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0], [3, 0, 0]]
     >>> star = delaunay_star(plus, nearest(plus, 5))
     >>> sorted(star.indices[: star.indptr[1]].tolist()), star.is_open[:2].tolist()
@@ -177,7 +177,7 @@ def nearest_star(points: ArrayLike, around: Neighborhoods) -> Neighborhoods:
 
     Examples
     --------
-    >>> from pointchart.neighbors import nearest
+    >>> from pointchart.points.neighbors import nearest
     >>> tracks = [[x, 3 * y, 0] for y in range(3) for x in range(12)]
     >>> near = nearest(tracks, 8)
     >>> sorted(nearest_star(tracks, near).indices[nearest_star(tracks, near).rows == 17].tolist())

@@ -1,0 +1,1 @@
+"""Points: made ready, their neighbours, what is around them."""
