@@ -27,7 +27,7 @@ from pointchart.mesh import half_edges
 from pointchart.points.neighbors import ball, spacing
 from pointchart.quality import least_distance
 from pointchart.shapes import Shape, add_noise
-from pointchart.solve import Solved, bicgstab, solve_fixed
+from pointchart.solve.systems import Solved, bicgstab, solve_fixed
 from pointchart.swaps import swap_to_delaunay
 from pointchart.triangulate import triangulate
 from pointchart.typing import UV, Floats, Indices, Loop, Points, Triangles

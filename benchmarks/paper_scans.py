@@ -16,7 +16,7 @@ from pointchart.parameterize import cut_points, parameterize
 from pointchart.points.neighbors import Neighborhoods, ball
 from pointchart.points.stars import delaunay_star
 from pointchart.shapes import hemisphere, sculpture, tube
-from pointchart.solve import Solved, Solver, bicgstab
+from pointchart.solve.systems import Solved, Solver, bicgstab
 from pointchart.typing import UV, Floats, Indices, Loop, Points, Triangles
 from pointchart.weights import WeightScheme, reciprocal_distance, shape_preserving, uniform
 

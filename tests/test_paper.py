@@ -18,7 +18,7 @@ from pointchart.parameterize import Parameterization, parameterize
 from pointchart.points.neighbors import Neighborhoods, ball
 from pointchart.points.stars import delaunay_star
 from pointchart.quality import least_distance
-from pointchart.solve import Solved, bicgstab, solve_fixed
+from pointchart.solve.systems import Solved, bicgstab, solve_fixed
 from pointchart.typing import Floats, Loop, Points
 from pointchart.weights import reciprocal_distance, shape_preserving, uniform
 

@@ -11,7 +11,7 @@ from pointchart.parameterize import check_connected, cut_points, parameterize
 from pointchart.points.neighbors import Neighborhoods, ball, from_pairs, nearest
 from pointchart.points.stars import delaunay_star
 from pointchart.shapes import disc, relief
-from pointchart.solve import bicgstab, direct, solve_fixed
+from pointchart.solve.systems import bicgstab, direct, solve_fixed
 from pointchart.weights import normalize, reciprocal_distance, uniform
 
 

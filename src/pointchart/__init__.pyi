@@ -65,7 +65,7 @@ from .io import (
 )
 from .links import Links as Links, link_stars as link_stars, trusted as trusted
 from .mesh import one_rings as one_rings
-from .multigrid import multigrid as multigrid
+from .solve.algebraic_multigrid import multigrid as multigrid
 from .points.neighbors import Neighborhoods as Neighborhoods, ball as ball, nearest as nearest, spacing as spacing
 from .parameterize import Parameterization as Parameterization, parameterize as parameterize
 from .pipeline import (
@@ -92,7 +92,7 @@ from .relocate import (
     suspect_points as suspect_points,
 )
 from .reopen import parameterize_open as parameterize_open
-from .solve import (
+from .solve.systems import (
     Solution as Solution,
     bicgstab as bicgstab,
     cholesky as cholesky,

@@ -12,14 +12,14 @@ import scipy.sparse as sp
 from .dirichlet import minimize_dirichlet
 from .errors import InputError, PointchartError, SolveError
 from .mesh import one_rings
-from .multigrid import multigrid
 from .parameterize import Parameterization, parameterize, solve_map
 from .plane.exact_signs import orientation_signs
 from .points.neighbors import Neighborhoods
 from .quality import l2_stretch, vertex_stretches
 from .refine import Meshed
 from .reopen import openings
-from .solve import Solver, solve_fixed
+from .solve.algebraic_multigrid import multigrid
+from .solve.systems import Solver, solve_fixed
 from .typing import UV, Loop, Points, Triangles
 from .weights import WeightScheme, fixed, mean_value, normalize, uniform
 

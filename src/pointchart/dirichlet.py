@@ -10,7 +10,7 @@ from ._check import check_loop, check_points, check_triangles
 from .errors import InputError
 from .plane.exact_signs import is_simple, orientation_signs
 from .quality import area_vectors
-from .solve import Direct, Solution
+from .solve.systems import Direct, Solution
 from .typing import UV, Floats, Indices, Loop, Mask, Points, Triangles
 
 MOST_STEPS = 100

@@ -7,10 +7,10 @@ import scipy.sparse as sp
 from numpy.typing import ArrayLike
 
 from ._check import check_convex, check_loop, check_neighbors, check_points
-from ._kernels.graphs import dominators
+from ._kernels.solve.graphs import dominators
 from .errors import InputError, SolveError
 from .points.neighbors import Neighborhoods
-from .solve import Solution, Solver, solve_fixed
+from .solve.systems import Solution, Solver, solve_fixed
 from .typing import UV, Indices, Loop, Points
 from .weights import WeightScheme, mean_value
 

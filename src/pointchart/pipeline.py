@@ -20,7 +20,7 @@ from .points.neighbors import Neighborhoods, nearest
 from .points.stars import nearest_star
 from .points.surroundings import NEAREST
 from .refine import Meshed, SwapRule, mesh_by_agreement, mesh_by_links, mesh_once
-from .solve import Solver, default_solver
+from .solve.systems import Solver, default_solver
 from .survey import Survey, survey_scan
 from .swaps import Swapped, keep_edges, swap_off_sides, swap_to_delaunay
 from .typing import UV, Indices, Loop, Points, Triangles

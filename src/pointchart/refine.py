@@ -16,7 +16,7 @@ from .points.neighbors import Neighborhoods
 from .recover import recover_links
 from .relocate import least_gain, relocate_in_place, suspect_points
 from .reopen import parameterize_open
-from .solve import Solver
+from .solve.systems import Solver
 from .swaps import Swapped, swap_in_place
 from .triangulate import separate, triangulate
 from .typing import UV, Loop, Points, Triangles

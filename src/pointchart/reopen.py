@@ -10,7 +10,7 @@ from scipy.sparse.csgraph import dijkstra
 from .errors import PointchartError
 from .parameterize import Parameterization, parameterize, solve_map
 from .points.neighbors import Neighborhoods
-from .solve import Solver, default_solver
+from .solve.systems import Solver, default_solver
 from .typing import UV, Floats, Loop, Points
 from .weights import WeightScheme, fixed, normalize
 

@@ -26,7 +26,7 @@ from .quality import (
     linf_stretch,
     radius_ratios,
 )
-from .solve import Solution
+from .solve.systems import Solution
 from .typing import UV, Floats, Indices, Points, Triangles
 
 MOST_PLACES = 10

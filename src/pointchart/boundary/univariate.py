@@ -6,7 +6,7 @@ from numpy.typing import ArrayLike
 
 from .._check import check_place, check_points
 from ..errors import InputError
-from ..solve import solve_fixed
+from ..solve.systems import solve_fixed
 from ..typing import Floats, Indices, Loop, Points
 from .steps import perimeter
 

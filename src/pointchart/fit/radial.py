@@ -15,7 +15,7 @@ from ..errors import InputError, SolveError
 from ..intersections import box_tree
 from ..points.morton import morton_order
 from ..points.neighbors import search
-from ..solve import ONE_THREAD
+from ..solve.systems import ONE_THREAD
 from ..triangulate import coinciding
 from ..typing import UV, Floats, Indices, Points
 

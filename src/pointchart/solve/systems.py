@@ -10,10 +10,10 @@ import scipy.sparse as sp
 import scipy.sparse.linalg as sla
 from threadpoolctl import threadpool_limits
 
-from ._kernels.graphs import reduce_rows, symmetrizer
-from .errors import SolveError, points_called
-from .multigrid import TOLERANCE, multigrid
-from .typing import Floats, Indices
+from .._kernels.solve.graphs import reduce_rows, symmetrizer
+from ..errors import SolveError, points_called
+from ..typing import Floats, Indices
+from .algebraic_multigrid import TOLERANCE, multigrid
 
 MOST_ITERATIONS = 20_000
 DIRECT_LIMIT = 1_000_000

@@ -10,7 +10,7 @@ from pointchart.errors import SolveError
 from pointchart.mesh import one_rings
 from pointchart.points.neighbors import ball, nearest
 from pointchart.shapes import disc, relief, shuffle
-from pointchart.solve import (
+from pointchart.solve.systems import (
     Direct,
     bicgstab,
     cholesky,

@@ -5,15 +5,15 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from strategies import planar_discs, seeds
 
-from pointchart._kernels import multigrid as kernels
+from pointchart._kernels.solve import cycles as kernels
 from pointchart._kernels.unsigned import unsigned
 from pointchart._parallel import on_threads
 from pointchart.errors import SolveError
-from pointchart.hierarchy import _in_singles, split
 from pointchart.mesh import one_rings
-from pointchart.multigrid import TOLERANCE, multigrid
 from pointchart.shapes import disc, relief
-from pointchart.solve import direct, solve_fixed
+from pointchart.solve.algebraic_multigrid import TOLERANCE, multigrid
+from pointchart.solve.hierarchy import _in_singles, split
+from pointchart.solve.systems import direct, solve_fixed
 from pointchart.weights import mean_value
 
 # More than the coarsest level holds, so that there are levels at all.

@@ -8,7 +8,7 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
 
-from ._kernels.coarsen import (
+from .._kernels.solve.coarsen import (
     choose_coarse,
     galerkin_rows,
     interpolate,
@@ -18,10 +18,10 @@ from ._kernels.coarsen import (
     split_rows,
     transpose,
 )
-from ._kernels.unsigned import unsigned
-from ._parallel import over_ranges
-from .errors import SolveError
-from .typing import Floats, Indices
+from .._kernels.unsigned import unsigned
+from .._parallel import over_ranges
+from ..errors import SolveError
+from ..typing import Floats, Indices
 
 COARSEST = 200  # unknowns that are solved for directly
 LARGEST = 3000  # the same, where coarsening comes to an end before, as on many parts

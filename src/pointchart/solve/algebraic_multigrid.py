@@ -3,7 +3,7 @@
 import numpy as np
 import scipy.sparse as sp
 
-from ._kernels.multigrid import (
+from .._kernels.solve.cycles import (
     BLOCK,
     advance,
     find_rest,
@@ -14,11 +14,11 @@ from ._kernels.multigrid import (
     sweep_backward,
     sweep_forward,
 )
-from ._kernels.unsigned import unsigned
-from ._parallel import Team
-from .errors import SolveError
+from .._kernels.unsigned import unsigned
+from .._parallel import Team
+from ..errors import SolveError
+from ..typing import Floats, Indices, Mask
 from .hierarchy import Hierarchy, Singles, coarsened
-from .typing import Floats, Indices, Mask
 
 TOLERANCE = 1e-12
 SLACK = 10.0  # of the true residual over the tolerance: that of the iteration drifts from it

@@ -1,0 +1,1 @@
+"""Sparse linear systems with fixed unknowns; knows no geometry."""
