@@ -13,8 +13,8 @@ from matplotlib.collections import LineCollection, PolyCollection
 
 import pointchart as pc
 from pointchart import shapes
+from pointchart.agreement.agreed_surface import agreed_patchwork
 from pointchart.assemble import assemble as assembled
-from pointchart.boundary import agreed_patchwork
 from pointchart.picture import ACCENT, FAINT, INK, PAPER
 from pointchart.survey import survey_scan
 

@@ -21,7 +21,8 @@ from pointchart import (
     spacing,
     survey_scan,
 )
-from pointchart.boundary import agreed_patchwork, anticlockwise, patchwork, rims
+from pointchart.agreement.agreed_surface import agreed_patchwork, patchwork
+from pointchart.boundary import anticlockwise, rims
 from pointchart.boundary.detect import corner_angles
 from pointchart.boundary.rims import tightened
 from pointchart.mesh import half_edges

@@ -10,15 +10,16 @@ from hypothesis import strategies as st
 from strategies import integer_sets, seeds
 
 from pointchart import _kernels
-from pointchart._kernels import assemble, constrain, drafts, recover, relocate, rims, sides
+from pointchart._kernels import assemble, constrain, drafts, recover, relocate, sides
 from pointchart._kernels import half_edges as half_edge_kernels
+from pointchart._kernels.agreement import agreed_triangles as rims
 from pointchart._kernels.points import box_tree as trees
 from pointchart._kernels.points import inversion as stars
 from pointchart._kernels.points import tangent_planes as planes
 from pointchart._kernels.solve import coarsen
 from pointchart._kernels.solve import cycles as steps
 from pointchart._kernels.unsigned import unsigned
-from pointchart.boundary import patchwork
+from pointchart.agreement.agreed_surface import patchwork
 from pointchart.fit import fit_radial, interpolate_clough_tocher
 from pointchart.intersections import box_tree
 from pointchart.mesh import half_edges, one_rings, start_draft

@@ -5,8 +5,8 @@ from hypothesis import given, settings
 from strategies import planar_discs, rotations, seeds
 
 from pointchart import shapes
+from pointchart.agreement.links import Links, link_stars
 from pointchart.certify import certify
-from pointchart.links import Links, link_stars
 from pointchart.mesh import boundary_loops, half_edges, one_rings
 from pointchart.pipeline import reconstruct
 from pointchart.plane.exact_signs import orientation_signs

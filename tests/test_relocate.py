@@ -5,9 +5,9 @@ from hypothesis import given, settings
 from strategies import planar_discs, rotations, seeds
 
 from pointchart import shapes
+from pointchart.agreement.links import link_stars
 from pointchart.certify import certify
 from pointchart.errors import InputError
-from pointchart.links import link_stars
 from pointchart.mesh import boundary_loops, half_edges, one_rings, start_draft
 from pointchart.points.neighbors import Neighborhoods, nearest
 from pointchart.points.surroundings import explore

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from pointchart import shapes
-from pointchart.links import link_stars, trusted
+from pointchart.agreement.links import link_stars, trusted
 from pointchart.parameterize import parameterize
 from pointchart.pipeline import reconstruct
 from pointchart.points.neighbors import from_pairs

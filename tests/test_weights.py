@@ -5,9 +5,9 @@ from hypothesis import strategies as st
 from strategies import clouds, planar_discs, rotations, seeds
 
 from pointchart._kernels.mean_value import half_angle_tangent
+from pointchart.agreement.links import link_stars, trusted
 from pointchart.boundary.layout import on_circle
 from pointchart.errors import InputError
-from pointchart.links import link_stars, trusted
 from pointchart.mesh import one_rings
 from pointchart.parameterize import parameterize
 from pointchart.points.neighbors import Neighborhoods, ball, nearest

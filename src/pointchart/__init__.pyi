@@ -63,7 +63,7 @@ from .io import (
     write_mesh as write_mesh,
     write_uv as write_uv,
 )
-from .links import Links as Links, link_stars as link_stars, trusted as trusted
+from .agreement.links import Links as Links, link_stars as link_stars, trusted as trusted
 from .mesh import one_rings as one_rings
 from .solve.algebraic_multigrid import multigrid as multigrid
 from .points.neighbors import Neighborhoods as Neighborhoods, ball as ball, nearest as nearest, spacing as spacing

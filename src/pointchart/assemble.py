@@ -7,7 +7,8 @@ import numpy as np
 from ._kernels.assemble import cap, cut_walks, keep_largest, mark_pinching, mark_rims, to_half_edges
 from ._kernels.half_edges import pair_half_edges
 from ._kernels.unsigned import unsigned
-from .boundary import Patchwork, is_same_loop
+from .agreement.agreed_surface import Patchwork
+from .boundary import is_same_loop
 from .typing import Indices, Loop, Points, Triangles
 
 ROUNDS = 10  # of pinches: dropping a fan may leave others
@@ -52,7 +53,7 @@ def assemble(points: Points, surface: Patchwork, loop: Loop) -> Assembled | None
 
     Examples
     --------
-    >>> from pointchart.boundary import patchwork
+    >>> from pointchart.agreement.agreed_surface import patchwork
     >>> pyramid = np.array([[0.0, 0, 0], [2, 0, 0], [2, 2, 0], [0, 2, 0], [1, 1, 1]])
     >>> sides = patchwork([[0, 1, 4], [1, 4, 2], [2, 3, 4], [4, 0, 3]], 5)
     >>> assemble(pyramid, sides, np.array([3, 2, 1, 0])).triangles.tolist()

@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike
 
+from .agreement.links import disputed_links, link_stars, tie_down, trusted
 from .boundary import Candidate, chord_length_on_circle
 from .bridges import Bridge, find_bridges, open_gaps
 from .certify import Certificate, certify
@@ -13,7 +14,6 @@ from .chart import ChartRule, uv_free_boundary, uv_low_stretch, uv_of_points, uv
 from .clock import StageClock
 from .errors import PointchartError, SolveError, points_called
 from .gaps import GapRule, Rims, bridge_gaps, check_torn, refuse_second_boundary
-from .links import disputed_links, link_stars, tie_down, trusted
 from .parameterize import Parameterization, parameterize
 from .points.cloud import Cloud
 from .points.neighbors import Neighborhoods, nearest

@@ -6,7 +6,7 @@ import numpy as np
 
 from ._kernels.recover import JOURNAL
 from ._kernels.recover import recover as recover_kernel
-from .links import FULL_TRUST, Links
+from .agreement.links import FULL_TRUST, Links
 from .mesh import start_draft
 from .typing import UV, Points, Triangles
 
@@ -54,7 +54,7 @@ def recover_links(points: Points, uv: UV, triangles: Triangles, links: Links) ->
 
     Examples
     --------
-    >>> from pointchart.links import link_stars
+    >>> from pointchart.agreement.links import link_stars
     >>> from pointchart.points.neighbors import nearest
     >>> from pointchart.points.stars import delaunay_star
     >>> kite = np.array([[0.0, 0, 0], [9, 0, 0], [4, 1, 0], [4, -1, 0]])

@@ -6,10 +6,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from ._kernels.relocate import JOURNAL
+from .agreement.agreed_surface import Patchwork
+from .agreement.links import Links, trusted
 from .assemble import assemble
-from .boundary import Patchwork
 from .clock import StageClock
-from .links import Links, trusted
 from .mesh import start_draft
 from .parameterize import Parameterization, parameterize
 from .points.neighbors import Neighborhoods

@@ -4,9 +4,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ._kernels.agreement.link_trust import mark_far
 from ._kernels.drafts import Draft
 from ._kernels.energy import total_energy
-from ._kernels.links import mark_far
 from ._kernels.relocate import JOURNAL
 from ._kernels.relocate import relocate as relocate_kernel
 from ._parallel import over_ranges

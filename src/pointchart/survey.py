@@ -7,12 +7,11 @@ from numpy.typing import ArrayLike
 
 from ._check import check_loop, check_place, check_points
 from ._memory import check_room
+from .agreement.agreed_surface import Patchwork, agreed_patchwork
 from .boundary import (
     BoundaryScores,
     Candidate,
     FoundBoundary,
-    Patchwork,
-    agreed_patchwork,
     anticlockwise,
     boundary_scores,
     check_order,

@@ -5,8 +5,8 @@ from hypothesis import strategies as st
 from strategies import clouds, planar_discs, rotations, seeds
 
 from pointchart import InputError, explore, nearest, nearest_star, shapes, spacing
-from pointchart.boundary import agreed_patchwork
-from pointchart.links import disputed_links
+from pointchart.agreement.agreed_surface import agreed_patchwork
+from pointchart.agreement.links import disputed_links
 
 
 def star_pairs(star):

@@ -1,5 +1,6 @@
 """The boundary of a patch: detect its points, put them in order, lay them out on a convex domain."""
 
+from ..agreement.agreed_surface import Patchwork, agreed_patchwork, patchwork
 from .detect import BoundaryScores, angular_gaps, boundary_scores, hull_test
 from .find import Candidate, FoundBoundary, find_boundary
 from .layout import (
@@ -18,7 +19,6 @@ from .layout import (
 )
 from .order import check_order
 from .orient import anticlockwise
-from .patchwork import Patchwork, agreed_patchwork, patchwork
 from .rims import rims, tightened
 from .steps import perimeter, step_lengths
 from .univariate import order_by_halves

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .._check import check_neighbors, check_points
-from .._kernels.rims import add_corner_angles
+from .._kernels.agreement.agreed_triangles import add_corner_angles
 from .._kernels.sides import survey_sides
 from .._kernels.unsigned import unsigned
 from .._parallel import over_ranges
@@ -94,7 +94,7 @@ def boundary_scores(
 
     Examples
     --------
-    >>> from pointchart.boundary import agreed_patchwork
+    >>> from pointchart.agreement.agreed_surface import agreed_patchwork
     >>> from pointchart.points.neighbors import nearest
     >>> from pointchart.points.stars import delaunay_star
     >>> plus = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0]])

@@ -6,13 +6,13 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .._check import check_points
+from ..agreement.agreed_surface import Patchwork, agreed_patchwork
 from ..errors import InputError
 from ..points.parts import check_one_piece
 from ..points.surroundings import Vicinity, explore
 from ..typing import Floats, Loop, Mask, Points
 from .detect import BoundaryScores, boundary_scores
 from .orient import anticlockwise
-from .patchwork import Patchwork, agreed_patchwork
 from .rims import rims, tightened
 from .steps import step_lengths
 

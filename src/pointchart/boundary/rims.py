@@ -4,9 +4,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .._check import check_points
-from .._kernels.rims import draw_tight, walk_rims
+from .._kernels.agreement.agreed_triangles import draw_tight, walk_rims
+from ..agreement.agreed_surface import Patchwork
 from ..typing import Indices, Loop, Mask
-from .patchwork import Patchwork
 
 
 def tightened(points: ArrayLike, surface: Patchwork, is_boundary: Mask) -> Patchwork:
@@ -28,7 +28,7 @@ def tightened(points: ArrayLike, surface: Patchwork, is_boundary: Mask) -> Patch
 
     Examples
     --------
-    >>> from pointchart.boundary import patchwork
+    >>> from pointchart.agreement.agreed_surface import patchwork
     >>> points = [[0, 0, 0], [2, 0, 0], [1, 0.5, 0], [1, 2, 0]]
     >>> surface = patchwork([[0, 1, 2], [1, 3, 2], [3, 0, 2]], 4)
     >>> tightened(points, surface, np.ones(4, bool)).triangles.tolist()
@@ -51,7 +51,7 @@ def rims(surface: Patchwork) -> list[Loop]:
 
     Examples
     --------
-    >>> from pointchart.boundary import patchwork
+    >>> from pointchart.agreement.agreed_surface import patchwork
     >>> bow_tie = patchwork([[0, 1, 2], [0, 3, 4]], 5)
     >>> [loop.tolist() for loop in rims(bow_tie)]
     [[2, 0, 1], [4, 0, 3]]

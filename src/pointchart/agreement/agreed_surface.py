@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .._check import check_points
-from .._kernels.rims import (
+from .._kernels.agreement.agreed_triangles import (
     FULL,
     JOINED,
     close_up,

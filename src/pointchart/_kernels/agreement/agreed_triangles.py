@@ -5,7 +5,7 @@ import math
 import numpy as np
 from numba import njit
 
-from .links import are_adjacent
+from .link_trust import are_adjacent
 
 JOINED, FULL, TWISTED = 0, 1, 2
 

@@ -3,8 +3,8 @@ import pytest
 from hypothesis import given, settings
 from strategies import clouds
 
+from pointchart.agreement.links import LONE_TRUST, disputed_links, link_stars, tie_down
 from pointchart.errors import InputError
-from pointchart.links import LONE_TRUST, disputed_links, link_stars, tie_down
 from pointchart.parameterize import cut_points
 from pointchart.pipeline import reconstruct
 from pointchart.points.neighbors import nearest
