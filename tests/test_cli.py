@@ -12,7 +12,8 @@ import numpy as np
 import pytest
 import trimesh
 
-from pointchart import certify, find_boundary, read_loop, read_scan, shapes, survey, write_loop, write_mesh
+from pointchart import certify, find_boundary, read_loop, read_scan, shapes, write_loop, write_mesh
+from pointchart.boundary import bounded as survey
 
 NO_FACES = np.empty((0, 3), np.int64)
 FAR = shapes.grid(6, 5).points + np.array([0, 0, 50])

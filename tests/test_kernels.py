@@ -10,9 +10,10 @@ from hypothesis import strategies as st
 from strategies import integer_sets, seeds
 
 from pointchart import _kernels
-from pointchart._kernels import assemble, constrain, drafts, recover, relocate, sides
+from pointchart._kernels import assemble, constrain, drafts, recover, relocate
 from pointchart._kernels import half_edges as half_edge_kernels
 from pointchart._kernels.agreement import agreed_triangles as rims
+from pointchart._kernels.boundary import sides
 from pointchart._kernels.points import box_tree as trees
 from pointchart._kernels.points import inversion as stars
 from pointchart._kernels.points import tangent_planes as planes

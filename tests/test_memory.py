@@ -2,7 +2,7 @@ import pytest
 
 from pointchart import InputError, _memory, shapes
 from pointchart._memory import check_room, free_bytes
-from pointchart.survey import survey_scan
+from pointchart.boundary.bounded import survey_scan
 
 
 def test_a_scan_that_will_not_fit_is_refused_with_both_numbers_and_a_remedy(monkeypatch):

@@ -113,7 +113,7 @@ from .surface_io import (
     write_surface_json as write_surface_json,
 )
 from .surfacing import SurfacedScan as SurfacedScan, fit_scan as fit_scan
-from .survey import Survey as Survey, survey_scan as survey_scan
+from .boundary.bounded import Survey as Survey, survey_scan as survey_scan
 from .swaps import Swapped as Swapped, keep_edges as keep_edges, swap_to_delaunay as swap_to_delaunay
 from .triangulate import triangulate as triangulate
 from .points.surroundings import Vicinity as Vicinity, explore as explore

@@ -8,6 +8,7 @@ from numpy.typing import ArrayLike
 
 from .agreement.links import disputed_links, link_stars, tie_down, trusted
 from .boundary import Candidate, chord_length_on_circle
+from .boundary.bounded import Survey, survey_scan
 from .bridges import Bridge, find_bridges, open_gaps
 from .certify import Certificate, certify
 from .chart import ChartRule, uv_free_boundary, uv_low_stretch, uv_of_points, uv_on_mesh
@@ -21,7 +22,6 @@ from .points.stars import nearest_star
 from .points.surroundings import NEAREST
 from .refine import Meshed, SwapRule, mesh_by_agreement, mesh_by_links, mesh_once
 from .solve.systems import Solver, default_solver
-from .survey import Survey, survey_scan
 from .swaps import Swapped, keep_edges, swap_off_sides, swap_to_delaunay
 from .typing import UV, Indices, Loop, Points, Triangles
 from .weights import WeightScheme, mean_value

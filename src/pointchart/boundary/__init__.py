@@ -1,7 +1,7 @@
 """The boundary of a patch: detect its points, put them in order, lay them out on a convex domain."""
 
 from ..agreement.agreed_surface import Patchwork, agreed_patchwork, patchwork
-from .detect import BoundaryScores, angular_gaps, boundary_scores, hull_test
+from .by_halves import order_by_halves
 from .find import Candidate, FoundBoundary, find_boundary
 from .layout import (
     centripetal_steps,
@@ -17,11 +17,11 @@ from .layout import (
     sharpest_places,
     uniform_steps,
 )
+from .loops import rims, tightened
 from .order import check_order
-from .orient import anticlockwise
-from .rims import rims, tightened
+from .orientation import anticlockwise
+from .scores import BoundaryScores, angular_gaps, boundary_scores, hull_test
 from .steps import perimeter, step_lengths
-from .univariate import order_by_halves
 
 __all__ = [
     "BoundaryScores",

@@ -11,9 +11,9 @@ from ..errors import InputError
 from ..points.parts import check_one_piece
 from ..points.surroundings import Vicinity, explore
 from ..typing import Floats, Loop, Mask, Points
-from .detect import BoundaryScores, boundary_scores
-from .orient import anticlockwise
-from .rims import rims, tightened
+from .loops import rims, tightened
+from .orientation import anticlockwise
+from .scores import BoundaryScores, boundary_scores
 from .steps import step_lengths
 
 LEAST_SHARE = 0.5

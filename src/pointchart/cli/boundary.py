@@ -14,7 +14,7 @@ from .progress import staged
 
 if TYPE_CHECKING:
     from ..boundary import BoundaryScores, Candidate
-    from ..survey import Survey
+    from ..boundary.bounded import Survey
     from ..typing import Attributes, Indices, Loop
 
 
@@ -39,10 +39,10 @@ def boundary(
 ) -> None:
     """Find the boundary of a scan and write its points in order; the file can be edited and given back to mesh."""
     from .._parallel import on_threads
+    from ..boundary.bounded import survey_scan
     from ..errors import points_called
     from ..io import check_output, replacing, write_curves, write_loop
     from ..picture import PICTURE_SUFFIXES, draw_boundary
-    from ..survey import survey_scan
     from .choices import outer_place
     from .inputs import read_inputs
 

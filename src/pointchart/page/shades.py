@@ -4,8 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..boundary.bounded import survey_scan
 from ..quality import area_vectors, vertex_stretches
-from ..survey import survey_scan
 from ..typing import UV, Floats, Loop, Points, Triangles
 
 SAME = 1e-9

@@ -7,7 +7,7 @@ from numpy.typing import ArrayLike
 
 from .._check import check_neighbors, check_points
 from .._kernels.agreement.agreed_triangles import add_corner_angles
-from .._kernels.sides import survey_sides
+from .._kernels.boundary.sides import survey_sides
 from .._kernels.unsigned import unsigned
 from .._parallel import over_ranges
 from ..errors import InputError

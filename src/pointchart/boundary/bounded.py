@@ -5,10 +5,16 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ._check import check_loop, check_place, check_points
-from ._memory import check_room
-from .agreement.agreed_surface import Patchwork, agreed_patchwork
-from .boundary import (
+from .._check import check_loop, check_place, check_points
+from .._memory import check_room
+from ..agreement.agreed_surface import Patchwork, agreed_patchwork
+from ..clock import StageClock
+from ..errors import InputError, points_called
+from ..points.cloud import Cloud, prepare
+from ..points.parts import check_one_piece
+from ..points.surroundings import Vicinity, explore
+from ..typing import Loop, Points
+from . import (
     BoundaryScores,
     Candidate,
     FoundBoundary,
@@ -18,12 +24,6 @@ from .boundary import (
     find_boundary,
     tightened,
 )
-from .clock import StageClock
-from .errors import InputError, points_called
-from .points.cloud import Cloud, prepare
-from .points.parts import check_one_piece
-from .points.surroundings import Vicinity, explore
-from .typing import Loop, Points
 
 
 @dataclass(frozen=True, slots=True, eq=False)

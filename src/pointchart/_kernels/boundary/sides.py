@@ -3,7 +3,7 @@
 import numpy as np
 from numba import njit
 
-from .points.inversion import measure_sides, project
+from ..points.inversion import measure_sides, project
 
 
 @njit(cache=True, nogil=True)

@@ -23,8 +23,8 @@ from pointchart import (
 )
 from pointchart.agreement.agreed_surface import agreed_patchwork, patchwork
 from pointchart.boundary import anticlockwise, rims
-from pointchart.boundary.detect import corner_angles
-from pointchart.boundary.rims import tightened
+from pointchart.boundary.loops import tightened
+from pointchart.boundary.scores import corner_angles
 from pointchart.mesh import half_edges
 
 SMOOTH = {
@@ -574,7 +574,7 @@ def test_a_moebius_strip_is_refused(strip, sigma):
 
 @pytest.mark.parametrize("name", ["x_annulus", "x_closed_hand", "x_torus", "x_two_feet"])
 def test_real_scans_of_no_disc_are_refused(name, request):
-    folder = request.path.parents[2] / "shared" / "data" / name
+    folder = request.path.parents[3] / "shared" / "data" / name
     if not folder.is_dir():
         pytest.skip(f"the real scan {name} is not in {folder.parent}")
     from pointchart import read_scan
