@@ -26,7 +26,8 @@ from rabbit import rabbit
 
 from pointchart.boundary import chord_length_steps, on_circle, order_by_halves
 from pointchart.camera import camera
-from pointchart.parameterize import parameterize
+from pointchart.map.convex_combination import parameterize
+from pointchart.map.weights import reciprocal_distance
 from pointchart.picture import ACCENT, INK, STONE, paint_loop, paint_triangles, paint_wires
 from pointchart.points.neighbors import Neighborhoods, ball
 from pointchart.points.stars import delaunay_star
@@ -34,7 +35,6 @@ from pointchart.shapes import Shape, add_noise, disc
 from pointchart.swaps import swap_to_delaunay
 from pointchart.triangulate import triangulate
 from pointchart.typing import UV, Loop, Points, Triangles
-from pointchart.weights import reciprocal_distance
 
 GREY, PALE, BLUE = "#a3adb8", "#dfe9f1", "#2f6f9f"
 DPI, FINER, COLORS = 130, 3, 88

@@ -14,13 +14,13 @@ from scipy.spatial import cKDTree
 
 from pointchart.boundary.layout import chord_length_steps, on_circle
 from pointchart.io import read_loop, read_scan
-from pointchart.parameterize import Parameterization, parameterize
+from pointchart.map.convex_combination import Parameterization, parameterize
+from pointchart.map.weights import reciprocal_distance, shape_preserving, uniform
 from pointchart.points.neighbors import Neighborhoods, ball
 from pointchart.points.stars import delaunay_star
 from pointchart.quality import least_distance
 from pointchart.solve.systems import Solved, bicgstab, solve_fixed
 from pointchart.typing import Floats, Loop, Points
-from pointchart.weights import reciprocal_distance, shape_preserving, uniform
 
 DATA = Path(__file__).resolve().parents[2] / "shared" / "data"
 RADIUS = {"bunny30571": 0.003, "foot5k": 9.0 / 245, "demosthenes": 0.03 / 0.80}  # the last two: of the longest side

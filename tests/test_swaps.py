@@ -8,15 +8,15 @@ from strategies import flat, planar_discs, rotations, seeds
 
 from pointchart.boundary.layout import chord_length_steps, on_circle
 from pointchart.certify import certify
+from pointchart.map.convex_combination import parameterize
+from pointchart.map.weights import mean_value, reciprocal_distance, shape_preserving
 from pointchart.mesh import boundary_loops, half_edges, one_rings
-from pointchart.parameterize import parameterize
 from pointchart.plane.exact_signs import orientation_signs
 from pointchart.points.neighbors import nearest
 from pointchart.points.stars import delaunay_star
 from pointchart.shapes import tube
 from pointchart.swaps import swap_in_place, swap_to_delaunay
 from pointchart.triangulate import triangulate
-from pointchart.weights import mean_value, reciprocal_distance, shape_preserving
 
 MAPS = {
     "reciprocal weights on the 20 nearest": (reciprocal_distance, lambda points: nearest(points, 20)),

@@ -67,7 +67,7 @@ from .agreement.links import Links as Links, link_stars as link_stars, trusted a
 from .mesh import one_rings as one_rings
 from .solve.algebraic_multigrid import multigrid as multigrid
 from .points.neighbors import Neighborhoods as Neighborhoods, ball as ball, nearest as nearest, spacing as spacing
-from .parameterize import Parameterization as Parameterization, parameterize as parameterize
+from .map.convex_combination import Parameterization as Parameterization, parameterize as parameterize
 from .pipeline import (
     Reconstruction as Reconstruction,
     parameterize_scan as parameterize_scan,
@@ -91,7 +91,7 @@ from .relocate import (
     relocate_points as relocate_points,
     suspect_points as suspect_points,
 )
-from .reopen import parameterize_open as parameterize_open
+from .map.protrusions import parameterize_open as parameterize_open
 from .solve.systems import (
     Solution as Solution,
     bicgstab as bicgstab,
@@ -117,7 +117,7 @@ from .boundary.bounded import Survey as Survey, survey_scan as survey_scan
 from .swaps import Swapped as Swapped, keep_edges as keep_edges, swap_to_delaunay as swap_to_delaunay
 from .triangulate import triangulate as triangulate
 from .points.surroundings import Vicinity as Vicinity, explore as explore
-from .weights import (
+from .map.weights import (
     mean_value as mean_value,
     reciprocal_distance as reciprocal_distance,
     shape_preserving as shape_preserving,

@@ -11,17 +11,17 @@ import scipy.sparse as sp
 
 from .dirichlet import minimize_dirichlet
 from .errors import InputError, PointchartError, SolveError
+from .map.convex_combination import Parameterization, parameterize, solve_map
+from .map.protrusions import openings
+from .map.weights import WeightScheme, fixed, mean_value, normalize, uniform
 from .mesh import one_rings
-from .parameterize import Parameterization, parameterize, solve_map
 from .plane.exact_signs import orientation_signs
 from .points.neighbors import Neighborhoods
 from .quality import l2_stretch, vertex_stretches
 from .refine import Meshed
-from .reopen import openings
 from .solve.algebraic_multigrid import multigrid
 from .solve.systems import Solver, solve_fixed
 from .typing import UV, Loop, Points, Triangles
-from .weights import WeightScheme, fixed, mean_value, normalize, uniform
 
 QUICK_TOLERANCES = 1e-6, 1e-10  # of the first maps, each tried for being one-to-one
 DIRECT_LIMIT = 10_000  # points up to which factors cost less than a hierarchy of matrices

@@ -15,7 +15,8 @@ from .chart import ChartRule, uv_free_boundary, uv_low_stretch, uv_of_points, uv
 from .clock import StageClock
 from .errors import PointchartError, SolveError, points_called
 from .gaps import GapRule, Rims, bridge_gaps, check_torn, refuse_second_boundary
-from .parameterize import Parameterization, parameterize
+from .map.convex_combination import Parameterization, parameterize
+from .map.weights import WeightScheme, mean_value
 from .points.cloud import Cloud
 from .points.neighbors import Neighborhoods, nearest
 from .points.stars import nearest_star
@@ -24,7 +25,6 @@ from .refine import Meshed, SwapRule, mesh_by_agreement, mesh_by_links, mesh_onc
 from .solve.systems import Solver, default_solver
 from .swaps import Swapped, keep_edges, swap_off_sides, swap_to_delaunay
 from .typing import UV, Indices, Loop, Points, Triangles
-from .weights import WeightScheme, mean_value
 
 TRIALS = 3  # loops tried, the best first, until a mesh stands
 

@@ -10,17 +10,17 @@ from .agreement.agreed_surface import Patchwork
 from .agreement.links import Links, trusted
 from .assemble import assemble
 from .clock import StageClock
+from .map.convex_combination import Parameterization, parameterize
+from .map.protrusions import parameterize_open
+from .map.weights import WeightScheme
 from .mesh import start_draft
-from .parameterize import Parameterization, parameterize
 from .points.neighbors import Neighborhoods
 from .recover import recover_links
 from .relocate import least_gain, relocate_in_place, suspect_points
-from .reopen import parameterize_open
 from .solve.systems import Solver
 from .swaps import Swapped, swap_in_place
 from .triangulate import separate, triangulate
 from .typing import UV, Loop, Points, Triangles
-from .weights import WeightScheme
 
 SwapRule = Callable[[Points, Triangles], Swapped]
 

@@ -5,7 +5,7 @@ from strategies import clouds
 
 from pointchart.agreement.links import LONE_TRUST, disputed_links, link_stars, tie_down
 from pointchart.errors import InputError
-from pointchart.parameterize import cut_points
+from pointchart.map.convex_combination import cut_points
 from pointchart.pipeline import reconstruct
 from pointchart.points.neighbors import nearest
 from pointchart.points.stars import delaunay_star

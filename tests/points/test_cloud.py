@@ -7,7 +7,7 @@ from strategies import clouds, seeds
 from pointchart.boundary.layout import chord_length_steps, on_circle
 from pointchart.certify import certify
 from pointchart.errors import InputError
-from pointchart.parameterize import parameterize
+from pointchart.map.convex_combination import parameterize
 from pointchart.points.cloud import prepare
 from pointchart.points.neighbors import nearest
 from pointchart.points.stars import delaunay_star

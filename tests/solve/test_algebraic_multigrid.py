@@ -9,12 +9,12 @@ from pointchart._kernels.solve import cycles as kernels
 from pointchart._kernels.unsigned import unsigned
 from pointchart._parallel import on_threads
 from pointchart.errors import SolveError
+from pointchart.map.weights import mean_value
 from pointchart.mesh import one_rings
 from pointchart.shapes import disc, relief
 from pointchart.solve.algebraic_multigrid import TOLERANCE, multigrid
 from pointchart.solve.hierarchy import _in_singles, split
 from pointchart.solve.systems import direct, solve_fixed
-from pointchart.weights import mean_value
 
 # More than the coarsest level holds, so that there are levels at all.
 LARGE_DISCS = planar_discs(smallest=400, largest=1500)

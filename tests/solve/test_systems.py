@@ -7,6 +7,7 @@ from hypothesis import assume, given, settings
 from strategies import systems
 
 from pointchart.errors import SolveError
+from pointchart.map.weights import mean_value, reciprocal_distance, uniform
 from pointchart.mesh import one_rings
 from pointchart.points.neighbors import ball, nearest
 from pointchart.shapes import disc, relief, shuffle
@@ -21,7 +22,6 @@ from pointchart.solve.systems import (
     solve_fixed,
     symmetrize,
 )
-from pointchart.weights import mean_value, reciprocal_distance, uniform
 
 GENERAL = [direct, Direct(), bicgstab, multigrid]
 SYMMETRIC = [cholesky, conjugate_gradient]

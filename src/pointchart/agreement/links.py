@@ -8,10 +8,10 @@ import scipy.sparse as sp
 from .._kernels.agreement.link_trust import agreement
 from .._parallel import over_ranges
 from ..errors import InputError
-from ..parameterize import cut_points
+from ..map.convex_combination import cut_points
+from ..map.weights import WeightScheme, normalize, reciprocal_distance
 from ..points.neighbors import Neighborhoods
 from ..typing import Floats, Indices, Loop, Mask, Points, Weights
-from ..weights import WeightScheme, normalize, reciprocal_distance
 
 FULL_TRUST = 1.0
 LONE_TRUST = 0.01  # a link that only one star sees: never 0, since the graph must stay connected

@@ -13,9 +13,9 @@ import typer
 from . import options as given
 
 if TYPE_CHECKING:
+    from ..map.weights import WeightScheme
     from ..view.around import Connect
     from ..view.command import Commands, Option
-    from ..weights import WeightScheme
 
 
 def view(
@@ -89,7 +89,7 @@ def _option(hint: Any, default: Any) -> Option:
 def _rules(neighbors: str, k: str, radius: str, weights: str) -> tuple[Connect, WeightScheme]:
     """Return the functions that the words of options name; Delaunay stars of the 20 nearest, if nothing is said."""
     from ..errors import InputError
-    from ..weights import mean_value
+    from ..map.weights import mean_value
     from .choices import connect_rule, weights_rule
     from .words import Neighbors, Weighting
 

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..errors import InputError, points_called
+from ..map.weights import WeightScheme
 from ..points.neighbors import Neighborhoods
 from ..typing import Indices, Points, Weights
-from ..weights import WeightScheme
 
 LEAST = 100  # points around the centre that are looked at
 ROOM = 4  # times as many as the k asked for
@@ -69,7 +69,7 @@ def around_point(
     Examples
     --------
     >>> from pointchart.points.neighbors import nearest
-    >>> from pointchart.weights import uniform
+    >>> from pointchart.map.weights import uniform
     >>> line = np.array([[0.0, 0, 0], [1, 0, 0], [3, 0, 0], [3, 1, 0], [9, 9, 9]])
     >>> around_point(line, 3, lambda points: nearest(points, 2), uniform, k=2).neighbors.tolist()
     [2, 1]

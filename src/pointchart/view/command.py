@@ -6,7 +6,7 @@ import subprocess
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
-from ..weights import WeightScheme
+from ..map.weights import WeightScheme
 from .around import Connect
 
 Rules = Callable[[str, str, str, str], tuple[Connect, WeightScheme]]

@@ -3,11 +3,11 @@ import pytest
 
 from pointchart import shapes
 from pointchart.agreement.links import link_stars, trusted
-from pointchart.parameterize import parameterize
+from pointchart.map.convex_combination import parameterize
+from pointchart.map.protrusions import COLLAPSED, _carried_on, parameterize_open
 from pointchart.pipeline import reconstruct
 from pointchart.points.neighbors import from_pairs
 from pointchart.points.surroundings import explore
-from pointchart.reopen import COLLAPSED, _carried_on, parameterize_open
 from pointchart.triangulate import coinciding
 
 

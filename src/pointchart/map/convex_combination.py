@@ -6,12 +6,12 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import ArrayLike
 
-from ._check import check_convex, check_loop, check_neighbors, check_points
-from ._kernels.solve.graphs import dominators
-from .errors import InputError, SolveError
-from .points.neighbors import Neighborhoods
-from .solve.systems import Solution, Solver, solve_fixed
-from .typing import UV, Indices, Loop, Points
+from .._check import check_convex, check_loop, check_neighbors, check_points
+from .._kernels.solve.graphs import dominators
+from ..errors import InputError, SolveError
+from ..points.neighbors import Neighborhoods
+from ..solve.systems import Solution, Solver, solve_fixed
+from ..typing import UV, Indices, Loop, Points
 from .weights import WeightScheme, mean_value
 
 
@@ -86,7 +86,7 @@ def parameterize(
     >>> from pointchart.points.neighbors import nearest
     >>> square = [[0, 0, 0], [2, 0, 0], [2, 2, 0], [0, 2, 0], [1, 1, 5]]
     >>> corners = [[0, 0], [1, 0], [1, 1], [0, 1]]
-    >>> from pointchart.weights import uniform
+    >>> from pointchart.map.weights import uniform
     >>> parameterize(square, [0, 1, 2, 3], corners, nearest(square, 4), weights=uniform).uv[4]
     array([0.5, 0.5])
     """

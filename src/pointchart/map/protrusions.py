@@ -7,11 +7,11 @@ import numpy as np
 from scipy.sparse import csr_matrix
 from scipy.sparse.csgraph import dijkstra
 
-from .errors import PointchartError
-from .parameterize import Parameterization, parameterize, solve_map
-from .points.neighbors import Neighborhoods
-from .solve.systems import Solver, default_solver
-from .typing import UV, Floats, Loop, Points
+from ..errors import PointchartError
+from ..points.neighbors import Neighborhoods
+from ..solve.systems import Solver, default_solver
+from ..typing import UV, Floats, Loop, Points
+from .convex_combination import Parameterization, parameterize, solve_map
 from .weights import WeightScheme, fixed, normalize
 
 COLLAPSED = 1e-11  # length of links in a domain of radius 1 below which rounding decides what lies where
@@ -76,7 +76,7 @@ def parameterize_open(
     Examples
     --------
     >>> from pointchart.points.neighbors import nearest
-    >>> from pointchart.weights import uniform
+    >>> from pointchart.map.weights import uniform
     >>> square = np.array([[0.0, 0, 0], [2, 0, 0], [2, 2, 0], [0, 2, 0], [1, 1, 5]])
     >>> corners = np.array([[0.0, 0], [1, 0], [1, 1], [0, 1]])
     >>> parameterize_open(square, np.arange(4), corners, nearest(square, 4), weights=uniform)[0].uv[4]

@@ -9,12 +9,12 @@ from typing import TypeAlias
 
 import numpy as np
 
-from ._kernels.mean_value import mean_value as mean_value_kernel
-from ._kernels.shape_preserving import shape_preserving as shape_preserving_kernel
-from ._parallel import over_ranges
-from .errors import InputError
-from .points.neighbors import Neighborhoods
-from .typing import Floats, Points, Weights
+from .._kernels.map.mean_value_weights import mean_value as mean_value_kernel
+from .._kernels.map.shape_preserving_weights import shape_preserving as shape_preserving_kernel
+from .._parallel import over_ranges
+from ..errors import InputError
+from ..points.neighbors import Neighborhoods
+from ..typing import Floats, Points, Weights
 
 LEAST_TANGENT = 1e-14  # weights stay positive between neighbours in one direction
 

@@ -4,16 +4,16 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from strategies import clouds, planar_discs, rotations, seeds
 
-from pointchart._kernels.mean_value import half_angle_tangent
+from pointchart._kernels.map.mean_value_weights import half_angle_tangent
 from pointchart.agreement.links import link_stars, trusted
 from pointchart.boundary.layout import on_circle
 from pointchart.errors import InputError
+from pointchart.map.convex_combination import parameterize
+from pointchart.map.weights import mean_value, normalize, reciprocal_distance, shape_preserving, uniform
 from pointchart.mesh import one_rings
-from pointchart.parameterize import parameterize
 from pointchart.points.neighbors import Neighborhoods, ball, nearest
 from pointchart.points.stars import delaunay_star
 from pointchart.shapes import disc
-from pointchart.weights import mean_value, normalize, reciprocal_distance, shape_preserving, uniform
 
 ORDERED = [mean_value, shape_preserving]
 SCHEMES = [uniform, reciprocal_distance, *ORDERED]
