@@ -28,7 +28,7 @@ from pointchart import (
     swap_to_least_mean_curvature,
     swap_to_least_turn,
 )
-from pointchart.quality import area_vectors
+from pointchart.mesh.quality import area_vectors
 from pointchart.shapes import Shape
 from pointchart.shapes.planar import delaunay
 from pointchart.typing import UV, Floats, Triangles

@@ -28,12 +28,12 @@ from pointchart.boundary import chord_length_steps, on_circle, order_by_halves
 from pointchart.camera import camera
 from pointchart.map.convex_combination import parameterize
 from pointchart.map.weights import reciprocal_distance
+from pointchart.mesh.delaunay_swaps import swap_to_delaunay
+from pointchart.mesh.planar_delaunay import triangulate
 from pointchart.picture import ACCENT, INK, STONE, paint_loop, paint_triangles, paint_wires
 from pointchart.points.neighbors import Neighborhoods, ball
 from pointchart.points.stars import delaunay_star
 from pointchart.shapes import Shape, add_noise, disc
-from pointchart.swaps import swap_to_delaunay
-from pointchart.triangulate import triangulate
 from pointchart.typing import UV, Loop, Points, Triangles
 
 GREY, PALE, BLUE = "#a3adb8", "#dfe9f1", "#2f6f9f"

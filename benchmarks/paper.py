@@ -23,13 +23,13 @@ from scipy.spatial import cKDTree
 
 from pointchart.boundary.layout import chord_length_steps, on_circle
 from pointchart.certify import certify
-from pointchart.mesh import half_edges
+from pointchart.mesh.connectivity import half_edges
+from pointchart.mesh.delaunay_swaps import swap_to_delaunay
+from pointchart.mesh.planar_delaunay import triangulate
+from pointchart.mesh.quality import least_distance
 from pointchart.points.neighbors import ball, spacing
-from pointchart.quality import least_distance
 from pointchart.shapes import Shape, add_noise
 from pointchart.solve.systems import Solved, bicgstab, solve_fixed
-from pointchart.swaps import swap_to_delaunay
-from pointchart.triangulate import triangulate
 from pointchart.typing import UV, Floats, Indices, Loop, Points, Triangles
 
 COINCIDENT = 1e-14  # parameters nearer than this differ by rounding only

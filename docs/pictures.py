@@ -14,8 +14,8 @@ from matplotlib.collections import LineCollection, PolyCollection
 import pointchart as pc
 from pointchart import shapes
 from pointchart.agreement.agreed_surface import agreed_patchwork
-from pointchart.assemble import assemble as assembled
 from pointchart.boundary.bounded import survey_scan
+from pointchart.mesh.assembly import assemble as assembled
 from pointchart.picture import ACCENT, FAINT, INK, PAPER
 
 STEEL = "#3a8fb7"

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from pointchart.mesh import half_edges
+from pointchart.mesh.connectivity import half_edges
 from pointchart.plane.exact_signs import orientation_signs
 
 

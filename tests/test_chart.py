@@ -34,12 +34,12 @@ from pointchart.boundary import chord_length_on_circle
 from pointchart.chart import DIRECT_LIMIT, QUICK_TOLERANCES
 from pointchart.cli.choices import CHARTS, Chart
 from pointchart.dirichlet import first_flat
+from pointchart.mesh.delaunay_swaps import Swapped
+from pointchart.mesh.make import Meshed
+from pointchart.mesh.quality import area_vectors
 from pointchart.pipeline import _check_proof
 from pointchart.plane.exact_signs import is_simple, orientation_signs
-from pointchart.quality import area_vectors
-from pointchart.refine import Meshed
 from pointchart.report import quality_report
-from pointchart.swaps import Swapped
 
 ONE_TO_ONE = [uv_on_mesh, uv_low_stretch, uv_free_boundary]
 PROTRUDING = {"hemisphere": lambda: shapes.hemisphere(500, angle=150), "tube": lambda: shapes.tube(6, n_around=16)}

@@ -28,7 +28,7 @@ from pointchart.gaps import (
     Rims,
     check_torn,
 )
-from pointchart.mesh import boundary_loops, half_edges
+from pointchart.mesh.connectivity import boundary_loops, half_edges
 
 RING = shapes.annulus()
 INNER, OUTER = sorted(RING.loops, key=lambda loop: np.linalg.norm(RING.points[loop[0]]))

@@ -10,10 +10,14 @@ from hypothesis import strategies as st
 from strategies import integer_sets, seeds
 
 from pointchart import _kernels
-from pointchart._kernels import assemble, constrain, drafts, recover, relocate
-from pointchart._kernels import half_edges as half_edge_kernels
+from pointchart._kernels import constrain
 from pointchart._kernels.agreement import agreed_triangles as rims
 from pointchart._kernels.boundary import sides
+from pointchart._kernels.mesh import drafts
+from pointchart._kernels.mesh import half_edges as half_edge_kernels
+from pointchart._kernels.mesh import pockets as assemble
+from pointchart._kernels.mesh import put_back as relocate
+from pointchart._kernels.mesh import recover_edges as recover
 from pointchart._kernels.points import box_tree as trees
 from pointchart._kernels.points import inversion as stars
 from pointchart._kernels.points import tangent_planes as planes
@@ -23,13 +27,13 @@ from pointchart._kernels.unsigned import unsigned
 from pointchart.agreement.agreed_surface import patchwork
 from pointchart.fit import fit_radial, interpolate_clough_tocher
 from pointchart.intersections import box_tree
-from pointchart.mesh import half_edges, one_rings, start_draft
+from pointchart.mesh.connectivity import half_edges, one_rings, start_draft
+from pointchart.mesh.planar_delaunay import triangulate
 from pointchart.plane.exact_signs import orientation_signs
 from pointchart.points.neighbors import BoxTree, Neighborhoods, nearest, spacing
 from pointchart.points.stars import delaunay_star, normals
 from pointchart.shapes import disc, moebius, relief
 from pointchart.solve.hierarchy import split
-from pointchart.triangulate import triangulate
 
 SHAPE = relief(60, seed=3)
 N = len(SHAPE.points)

@@ -12,7 +12,7 @@ import pointchart as pc
 from pointchart import shapes
 from pointchart.camera import camera
 from pointchart.clock import StageClock
-from pointchart.mesh import boundary_loops, fans, half_edges
+from pointchart.mesh.connectivity import boundary_loops, fans, half_edges
 from pointchart.page import lay_out
 from pointchart.page.histograms import quality_histograms
 from pointchart.page.pack import packed, quantized, steps

@@ -40,7 +40,7 @@ from pointchart import (
     uv_on_mesh,
 )
 from pointchart.boundary import chord_length_on_circle, places_of
-from pointchart.mesh import boundary_loops, half_edges
+from pointchart.mesh.connectivity import boundary_loops, half_edges
 from pointchart.pipeline import TRIALS
 
 SIMULATED = {

@@ -41,7 +41,9 @@ def read_only(tmp_path, monkeypatch):
     site, temporary = tmp_path / "site", tmp_path / "temporary"
     shutil.copytree(PACKAGE, site / "pointchart", ignore=shutil.ignore_patterns("__pycache__"))
     # Files in the place of folders stop root as well.
-    (site / "pointchart/_kernels/__pycache__").touch()
+    for folder in (site / "pointchart/_kernels").iterdir():
+        if folder.is_dir():
+            (folder / "__pycache__").touch()
     temporary.mkdir()
     for name, value in {"PYTHONPATH": site, "HOME": "/dev/null/none", "TMPDIR": temporary}.items():
         monkeypatch.setenv(name, str(value))

@@ -29,7 +29,7 @@ from .chart import (
 )
 from .clock import StageClock as StageClock
 from .points.parts import largest_component as largest_component
-from .curvature_swaps import (
+from .mesh.crease_swaps import (
     swap_to_least_curvature as swap_to_least_curvature,
     swap_to_least_gaussian_curvature as swap_to_least_gaussian_curvature,
     swap_to_least_mean_curvature as swap_to_least_mean_curvature,
@@ -64,7 +64,7 @@ from .io import (
     write_uv as write_uv,
 )
 from .agreement.links import Links as Links, link_stars as link_stars, trusted as trusted
-from .mesh import one_rings as one_rings
+from .mesh.connectivity import one_rings as one_rings
 from .solve.algebraic_multigrid import multigrid as multigrid
 from .points.neighbors import Neighborhoods as Neighborhoods, ball as ball, nearest as nearest, spacing as spacing
 from .map.convex_combination import Parameterization as Parameterization, parameterize as parameterize
@@ -74,7 +74,7 @@ from .pipeline import (
     reconstruct as reconstruct,
 )
 from .points.cloud import Cloud as Cloud, prepare as prepare
-from .quality import (
+from .mesh.quality import (
     area_distortions as area_distortions,
     conformal_distortions as conformal_distortions,
     l2_stretch as l2_stretch,
@@ -84,8 +84,8 @@ from .quality import (
     stretches as stretches,
     vertex_stretches as vertex_stretches,
 )
-from .recover import Recovered as Recovered, recover_links as recover_links
-from .relocate import (
+from .mesh.recover import Recovered as Recovered, recover_links as recover_links
+from .mesh.relocate import (
     Relocated as Relocated,
     mesh_energy as mesh_energy,
     relocate_points as relocate_points,
@@ -114,8 +114,8 @@ from .surface_io import (
 )
 from .surfacing import SurfacedScan as SurfacedScan, fit_scan as fit_scan
 from .boundary.bounded import Survey as Survey, survey_scan as survey_scan
-from .swaps import Swapped as Swapped, keep_edges as keep_edges, swap_to_delaunay as swap_to_delaunay
-from .triangulate import triangulate as triangulate
+from .mesh.delaunay_swaps import Swapped as Swapped, keep_edges as keep_edges, swap_to_delaunay as swap_to_delaunay
+from .mesh.planar_delaunay import triangulate as triangulate
 from .points.surroundings import Vicinity as Vicinity, explore as explore
 from .map.weights import (
     mean_value as mean_value,

@@ -18,7 +18,7 @@ def choose_folder() -> None:
 def _choices_of_numba() -> Iterator[str]:
     if given := os.environ.get("NUMBA_CACHE_DIR"):
         yield given
-    yield os.path.join(os.path.dirname(__file__), "_kernels", "__pycache__")
+    yield os.path.join(os.path.dirname(__file__), "_kernels", "mesh", "__pycache__")
     if sys.platform == "win32":
         yield os.environ.get("LOCALAPPDATA", "")
     elif sys.platform == "darwin":

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.sparse as sp
 
-from ._kernels.half_edges import measure_edges
+from ._kernels.mesh.half_edges import measure_edges
 from ._parallel import over_ranges
-from .mesh import half_edges
+from .mesh.connectivity import half_edges
 from .typing import Floats, Indices, Mask, Points, Triangles
 
 LONG_EDGE = 4.0  # local spacings

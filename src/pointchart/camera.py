@@ -3,9 +3,9 @@
 import numpy as np
 
 from .errors import InputError
-from .mesh import half_edges
+from .mesh.connectivity import half_edges
+from .mesh.quality import area_vectors
 from .picture import rotation
-from .quality import area_vectors
 from .typing import Floats, Points, Triangles
 
 AXES = {"x": 0, "y": 1, "z": 2}

@@ -14,11 +14,11 @@ from .errors import InputError, PointchartError, SolveError
 from .map.convex_combination import Parameterization, parameterize, solve_map
 from .map.protrusions import openings
 from .map.weights import WeightScheme, fixed, mean_value, normalize, uniform
-from .mesh import one_rings
+from .mesh.connectivity import one_rings
+from .mesh.make import Meshed
+from .mesh.quality import l2_stretch, vertex_stretches
 from .plane.exact_signs import orientation_signs
 from .points.neighbors import Neighborhoods
-from .quality import l2_stretch, vertex_stretches
-from .refine import Meshed
 from .solve.algebraic_multigrid import multigrid
 from .solve.systems import Solver, solve_fixed
 from .typing import UV, Loop, Points, Triangles

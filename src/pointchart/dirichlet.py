@@ -8,8 +8,8 @@ from numpy.typing import ArrayLike
 
 from ._check import check_loop, check_points, check_triangles
 from .errors import InputError
+from .mesh.quality import area_vectors
 from .plane.exact_signs import is_simple, orientation_signs
-from .quality import area_vectors
 from .solve.systems import Direct, Solution
 from .typing import UV, Floats, Indices, Loop, Mask, Points, Triangles
 

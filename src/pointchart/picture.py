@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from .io import check_output, replacing
-from .quality import area_vectors
+from .mesh.quality import area_vectors
 from .typing import UV, Floats, Loop, Points, Triangles
 
 PAPER, FAINT, INK, ACCENT = "#fbfaf7", "#ccd6d8", "#22303c", "#c8553d"

@@ -17,13 +17,13 @@ from .errors import PointchartError, SolveError, points_called
 from .gaps import GapRule, Rims, bridge_gaps, check_torn, refuse_second_boundary
 from .map.convex_combination import Parameterization, parameterize
 from .map.weights import WeightScheme, mean_value
+from .mesh.delaunay_swaps import Swapped, keep_edges, swap_off_sides, swap_to_delaunay
+from .mesh.make import Meshed, SwapRule, mesh_by_agreement, mesh_by_links, mesh_once
 from .points.cloud import Cloud
 from .points.neighbors import Neighborhoods, nearest
 from .points.stars import nearest_star
 from .points.surroundings import NEAREST
-from .refine import Meshed, SwapRule, mesh_by_agreement, mesh_by_links, mesh_once
 from .solve.systems import Solver, default_solver
-from .swaps import Swapped, keep_edges, swap_off_sides, swap_to_delaunay
 from .typing import UV, Indices, Loop, Points, Triangles
 
 TRIALS = 3  # loops tried, the best first, until a mesh stands

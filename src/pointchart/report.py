@@ -16,8 +16,7 @@ from .clock import StageClock
 from .gaps import place_of
 from .intersections import places_of, self_intersections
 from .io import replacing
-from .pipeline import Reconstruction
-from .quality import (
+from .mesh.quality import (
     area_distortions,
     areas,
     conformal_distortions,
@@ -26,6 +25,7 @@ from .quality import (
     linf_stretch,
     radius_ratios,
 )
+from .pipeline import Reconstruction
 from .solve.systems import Solution
 from .typing import UV, Floats, Indices, Points, Triangles
 

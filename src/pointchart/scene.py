@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 from .camera import OBLIQUE
 from .fit import Surface
 from .fit.tessellate import tessellate
-from .quality import area_vectors
+from .mesh.quality import area_vectors
 from .typing import UV, Floats, Indices, Mask, Points, Triangles
 
 Box: TypeAlias = tuple[float, float, float, float]

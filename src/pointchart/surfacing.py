@@ -15,7 +15,7 @@ from .fit.knots import MARGIN
 from .fit.loss import Loss
 from .fit.refine import check_tolerance
 from .gaps import GapRule, Rims, leave_gaps_open, refuse_second_boundary
-from .mesh import boundary_loops, half_edges
+from .mesh.connectivity import boundary_loops, half_edges
 from .pipeline import LayoutRule, Reconstruction, reconstruct
 from .plane.exact_signs import is_simple
 from .plane.polygons import signed_area

@@ -10,7 +10,7 @@ from strategies import planar_discs, seeds
 from pointchart import InputError, delaunay_star, nearest, shapes, spacing
 from pointchart.agreement.agreed_surface import agreed_patchwork, patchwork
 from pointchart.boundary import is_same_loop, rims
-from pointchart.mesh import half_edges
+from pointchart.mesh.connectivity import half_edges
 from pointchart.points.stars import break_ties
 
 STRIPS = {

@@ -25,7 +25,7 @@ from pointchart.agreement.agreed_surface import agreed_patchwork, patchwork
 from pointchart.boundary import anticlockwise, rims
 from pointchart.boundary.loops import tightened
 from pointchart.boundary.scores import corner_angles
-from pointchart.mesh import half_edges
+from pointchart.mesh.connectivity import half_edges
 
 SMOOTH = {
     "disc": lambda: shapes.disc(800, seed=1),

@@ -8,7 +8,7 @@ from pointchart.boundary.layout import chord_length_steps, on_circle, on_square
 from pointchart.errors import InputError, SolveError
 from pointchart.map.convex_combination import check_connected, cut_points, parameterize
 from pointchart.map.weights import normalize, reciprocal_distance, uniform
-from pointchart.mesh import one_rings
+from pointchart.mesh.connectivity import one_rings
 from pointchart.points.neighbors import Neighborhoods, ball, from_pairs, nearest
 from pointchart.points.stars import delaunay_star
 from pointchart.shapes import disc, relief

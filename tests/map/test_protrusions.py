@@ -5,10 +5,10 @@ from pointchart import shapes
 from pointchart.agreement.links import link_stars, trusted
 from pointchart.map.convex_combination import parameterize
 from pointchart.map.protrusions import COLLAPSED, _carried_on, parameterize_open
+from pointchart.mesh.planar_delaunay import coinciding
 from pointchart.pipeline import reconstruct
 from pointchart.points.neighbors import from_pairs
 from pointchart.points.surroundings import explore
-from pointchart.triangulate import coinciding
 
 
 def parts_of(shape):

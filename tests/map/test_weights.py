@@ -10,7 +10,7 @@ from pointchart.boundary.layout import on_circle
 from pointchart.errors import InputError
 from pointchart.map.convex_combination import parameterize
 from pointchart.map.weights import mean_value, normalize, reciprocal_distance, shape_preserving, uniform
-from pointchart.mesh import one_rings
+from pointchart.mesh.connectivity import one_rings
 from pointchart.points.neighbors import Neighborhoods, ball, nearest
 from pointchart.points.stars import delaunay_star
 from pointchart.shapes import disc

@@ -8,12 +8,12 @@ from pointchart.boundary.layout import chord_length_steps, on_circle
 from pointchart.certify import certify
 from pointchart.errors import InputError
 from pointchart.map.convex_combination import parameterize
+from pointchart.mesh.delaunay_swaps import swap_to_delaunay
+from pointchart.mesh.planar_delaunay import triangulate
 from pointchart.points.cloud import prepare
 from pointchart.points.neighbors import nearest
 from pointchart.points.stars import delaunay_star
 from pointchart.shapes import relief, sculpture, shuffle
-from pointchart.swaps import swap_to_delaunay
-from pointchart.triangulate import triangulate
 
 
 def mesh_of(points, loop):

@@ -10,7 +10,7 @@ from pointchart._kernels.unsigned import unsigned
 from pointchart._parallel import on_threads
 from pointchart.errors import SolveError
 from pointchart.map.weights import mean_value
-from pointchart.mesh import one_rings
+from pointchart.mesh.connectivity import one_rings
 from pointchart.shapes import disc, relief
 from pointchart.solve.algebraic_multigrid import TOLERANCE, multigrid
 from pointchart.solve.hierarchy import _in_singles, split

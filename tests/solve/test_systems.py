@@ -8,7 +8,7 @@ from strategies import systems
 
 from pointchart.errors import SolveError
 from pointchart.map.weights import mean_value, reciprocal_distance, uniform
-from pointchart.mesh import one_rings
+from pointchart.mesh.connectivity import one_rings
 from pointchart.points.neighbors import ball, nearest
 from pointchart.shapes import disc, relief, shuffle
 from pointchart.solve.systems import (

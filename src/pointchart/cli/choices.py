@@ -7,16 +7,18 @@ from pathlib import Path
 import numpy as np
 import typer
 
-from .. import boundary, chart, curvature_swaps, gaps, swaps
+from .. import boundary, chart, gaps
 from ..chart import ChartRule
 from ..gaps import GapRule
 from ..map import weights
 from ..map.weights import WeightScheme
+from ..mesh import crease_swaps as curvature_swaps
+from ..mesh import delaunay_swaps as swaps
+from ..mesh.make import SwapRule
 from ..pipeline import Connect, LayoutRule
 from ..points import neighbors, stars
 from ..points import surroundings as vicinity
 from ..points.neighbors import Neighborhoods
-from ..refine import SwapRule
 from ..typing import UV, Floats, Indices, Loop, Points
 from .words import Chart, Domain, Holes, Neighbors, Spacing, SurfaceDomain, Swap, Weighting
 

@@ -33,9 +33,9 @@ def param(
     """Give every point of a scan planar parameters by the paper's method, without a mesh; row i is point i."""
     from .._parallel import on_threads
     from ..io import UV_SUFFIXES, write_uv
+    from ..mesh.planar_delaunay import coinciding
     from ..pipeline import parameterize_scan
     from ..report import solve_report, stages_report, writing_json
-    from ..triangulate import coinciding
     from .choices import connect_rule, corner_names, layout_rule, outer_place, weights_rule
     from .inputs import read_inputs
     from .output import carried, given_options

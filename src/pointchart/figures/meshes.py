@@ -10,7 +10,7 @@ from .._check import check_points, check_triangles, check_uv
 from ..camera import camera
 from ..errors import InputError
 from ..io.source import AnyPath
-from ..mesh import boundary_loops, half_edges
+from ..mesh.connectivity import boundary_loops, half_edges
 from ..picture import (
     MOST_SHAPES,
     STONE,

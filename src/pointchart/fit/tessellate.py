@@ -9,10 +9,10 @@ from scipy.spatial import cKDTree
 
 from .._kernels.constrain import constrain
 from ..errors import InputError
-from ..mesh import start_draft
+from ..mesh.connectivity import start_draft
+from ..mesh.delaunay_swaps import swap_to_delaunay
+from ..mesh.planar_delaunay import coinciding, triangulate
 from ..plane.exact_signs import is_simple
-from ..swaps import swap_to_delaunay
-from ..triangulate import coinciding, triangulate
 from ..typing import UV, Floats, Indices, Mask, Points, Triangles
 from .surface import Surface
 

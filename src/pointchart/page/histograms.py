@@ -4,8 +4,8 @@ from typing import Any
 
 import numpy as np
 
-from ..mesh import half_edges
-from ..quality import conformal_distortions, edge_lengths, radius_ratios, smallest_angles
+from ..mesh.connectivity import half_edges
+from ..mesh.quality import conformal_distortions, edge_lengths, radius_ratios, smallest_angles
 from ..typing import UV, Floats, Points, Triangles
 
 BINS = 40

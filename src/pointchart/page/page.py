@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from ..camera import camera, upright_axes, upward
 from ..io import replacing
-from ..mesh import boundary_loops, half_edges
+from ..mesh.connectivity import boundary_loops, half_edges
 from ..pipeline import Reconstruction
 from ..report import certificate_lines
 from ..typing import Floats, Indices, Points

@@ -3,8 +3,8 @@
 import numpy as np
 from numba import njit
 
-from ..drafts import first_around, next_around
-from ..half_edges import following, preceding
+from ..mesh.drafts import first_around, next_around
+from ..mesh.half_edges import following, preceding
 
 RING = 32  # points that are kept at hand
 

@@ -4,12 +4,12 @@ from collections.abc import Callable
 
 import numpy as np
 
-from ._kernels.quality import measure_areas, measure_plane_areas, measure_shapes, measure_stretches
-from ._parallel import over_ranges
-from .mesh import HalfEdges
-from .points.morton import morton_order
-from .points.neighbors import BoxTree
-from .typing import UV, Floats, Indices, Points, Triangles
+from .._kernels.mesh.triangle_shapes import measure_areas, measure_plane_areas, measure_shapes, measure_stretches
+from .._parallel import over_ranges
+from ..points.morton import morton_order
+from ..points.neighbors import BoxTree
+from ..typing import UV, Floats, Indices, Points, Triangles
+from .connectivity import HalfEdges
 
 
 def edge_lengths(points: Points, edges: HalfEdges) -> tuple[Indices, Floats]:
@@ -23,7 +23,7 @@ def edge_lengths(points: Points, edges: HalfEdges) -> tuple[Indices, Floats]:
     Examples
     --------
     >>> import numpy as np
-    >>> from pointchart.mesh import half_edges
+    >>> from pointchart.mesh.connectivity import half_edges
     >>> edge_lengths(np.array([[0.0, 0, 0], [3, 0, 0], [3, 4, 0]]), half_edges(np.array([[0, 1, 2]]), 3))[1]
     array([3., 4., 5.])
     """
@@ -76,7 +76,7 @@ def dihedral_angles(points: Points, triangles: Triangles, edges: HalfEdges) -> F
     --------
     >>> import numpy as np
     >>> corner = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, -1]])
-    >>> from pointchart.mesh import half_edges
+    >>> from pointchart.mesh.connectivity import half_edges
     >>> faces = np.array([[0, 1, 2], [1, 0, 3]])
     >>> np.rad2deg(dihedral_angles(corner, faces, half_edges(faces, 4))).round(6)
     array([90.])

@@ -9,10 +9,10 @@ from strategies import convex_discs, planar_discs, seeds
 
 from pointchart.boundary.layout import chord_length_steps, on_circle, on_polygon, on_square
 from pointchart.errors import InputError, SolveError
-from pointchart.mesh import boundary_loops, half_edges
+from pointchart.mesh.connectivity import boundary_loops, half_edges
+from pointchart.mesh.planar_delaunay import coinciding, separate, triangulate
 from pointchart.plane.exact_signs import orientation_signs
 from pointchart.shapes import disc
-from pointchart.triangulate import coinciding, separate, triangulate
 
 
 def exact_incircle(a, b, c, d):

@@ -5,10 +5,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ._check import check_points, check_triangles
-from ._kernels.swaps import MOST_SWAPS_OF_A_TRIANGLE, are_joined, delaunay_swaps, swap
-from .mesh import HalfEdges, half_edges
-from .typing import UV, Indices, Loop, Mask, Points, Triangles
+from .._check import check_points, check_triangles
+from .._kernels.mesh.swaps import MOST_SWAPS_OF_A_TRIANGLE, are_joined, delaunay_swaps, swap
+from ..typing import UV, Indices, Loop, Mask, Points, Triangles
+from .connectivity import HalfEdges, half_edges
 
 STRAIGHT = 1e-9  # sine of the turn under which boundary points lie on one side of the domain
 

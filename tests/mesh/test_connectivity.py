@@ -4,7 +4,7 @@ from hypothesis import given, settings
 from strategies import planar_discs
 
 from pointchart import shapes
-from pointchart.mesh import boundary_loops, fans, half_edges, one_rings
+from pointchart.mesh.connectivity import boundary_loops, fans, half_edges, one_rings
 
 
 def as_cycle(loop):

@@ -7,10 +7,10 @@ from strategies import planar_discs, rotations, seeds
 
 from pointchart import shapes
 from pointchart.agreement.agreed_surface import patchwork
-from pointchart.assemble import assemble
 from pointchart.boundary import perimeter
 from pointchart.certify import certify
-from pointchart.mesh import half_edges
+from pointchart.mesh.assembly import assemble
+from pointchart.mesh.connectivity import half_edges
 from pointchart.plane.exact_signs import orientation_signs
 
 BENDS = {

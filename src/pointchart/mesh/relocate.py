@@ -4,15 +4,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ._kernels.agreement.link_trust import mark_far
-from ._kernels.drafts import Draft
-from ._kernels.energy import total_energy
-from ._kernels.relocate import JOURNAL
-from ._kernels.relocate import relocate as relocate_kernel
-from ._parallel import over_ranges
-from .mesh import start_draft
-from .points.neighbors import Neighborhoods
-from .typing import Indices, Mask, Points, Triangles
+from .._kernels.agreement.link_trust import mark_far
+from .._kernels.mesh.drafts import Draft
+from .._kernels.mesh.energy import total_energy
+from .._kernels.mesh.put_back import JOURNAL
+from .._kernels.mesh.put_back import relocate as relocate_kernel
+from .._parallel import over_ranges
+from ..points.neighbors import Neighborhoods
+from ..typing import Indices, Mask, Points, Triangles
+from .connectivity import start_draft
 
 LEAST_GAIN = 1e-9  # of the mean energy of a triangle: smaller ones are rounding, and might move points for ever
 TRIES = 30  # per point of the mesh, in all

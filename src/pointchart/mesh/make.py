@@ -5,22 +5,22 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ._kernels.relocate import JOURNAL
-from .agreement.agreed_surface import Patchwork
-from .agreement.links import Links, trusted
-from .assemble import assemble
-from .clock import StageClock
-from .map.convex_combination import Parameterization, parameterize
-from .map.protrusions import parameterize_open
-from .map.weights import WeightScheme
-from .mesh import start_draft
-from .points.neighbors import Neighborhoods
+from .._kernels.mesh.put_back import JOURNAL
+from ..agreement.agreed_surface import Patchwork
+from ..agreement.links import Links, trusted
+from ..clock import StageClock
+from ..map.convex_combination import Parameterization, parameterize
+from ..map.protrusions import parameterize_open
+from ..map.weights import WeightScheme
+from ..points.neighbors import Neighborhoods
+from ..solve.systems import Solver
+from ..typing import UV, Loop, Points, Triangles
+from .assembly import assemble
+from .connectivity import start_draft
+from .delaunay_swaps import Swapped, swap_in_place
+from .planar_delaunay import separate, triangulate
 from .recover import recover_links
 from .relocate import least_gain, relocate_in_place, suspect_points
-from .solve.systems import Solver
-from .swaps import Swapped, swap_in_place
-from .triangulate import separate, triangulate
-from .typing import UV, Loop, Points, Triangles
 
 SwapRule = Callable[[Points, Triangles], Swapped]
 

@@ -4,13 +4,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ._check import check_triangles
-from ._kernels.drafts import Draft
-from ._kernels.half_edges import count_fans, order_rings, pair_half_edges
-from ._kernels.unsigned import unsigned
-from .errors import InputError
-from .points.neighbors import Neighborhoods
-from .typing import Indices, Loop, Points, Triangles
+from .._check import check_triangles
+from .._kernels.mesh.drafts import Draft
+from .._kernels.mesh.half_edges import count_fans, order_rings, pair_half_edges
+from .._kernels.unsigned import unsigned
+from ..errors import InputError
+from ..points.neighbors import Neighborhoods
+from ..typing import Indices, Loop, Points, Triangles
 
 
 @dataclass(frozen=True, slots=True, eq=False)

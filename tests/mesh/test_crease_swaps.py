@@ -8,19 +8,19 @@ from hypothesis import strategies as st
 from strategies import planar_discs, rotations, seeds
 
 from pointchart import shapes
-from pointchart._kernels import curvature_swaps as kernels
+from pointchart._kernels.mesh import curvature_swaps as kernels
 from pointchart.certify import certify
 from pointchart.cli.choices import SWAPS, Swap
-from pointchart.curvature_swaps import (
+from pointchart.mesh.connectivity import boundary_loops, half_edges
+from pointchart.mesh.crease_swaps import (
     swap_to_least_curvature,
     swap_to_least_gaussian_curvature,
     swap_to_least_mean_curvature,
     swap_to_least_turn,
 )
-from pointchart.mesh import boundary_loops, half_edges
+from pointchart.mesh.delaunay_swaps import swap_to_delaunay
 from pointchart.pipeline import reconstruct
 from pointchart.points.neighbors import spacing
-from pointchart.swaps import swap_to_delaunay
 
 
 def bends(points, triangles):

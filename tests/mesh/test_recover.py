@@ -7,15 +7,15 @@ from strategies import planar_discs, rotations, seeds
 from pointchart import shapes
 from pointchart.agreement.links import Links, link_stars
 from pointchart.certify import certify
-from pointchart.mesh import boundary_loops, half_edges, one_rings
+from pointchart.mesh.connectivity import boundary_loops, half_edges, one_rings
+from pointchart.mesh.delaunay_swaps import swap_to_delaunay
+from pointchart.mesh.planar_delaunay import triangulate
+from pointchart.mesh.recover import recover_links
+from pointchart.mesh.relocate import mesh_energy
 from pointchart.pipeline import reconstruct
 from pointchart.plane.exact_signs import orientation_signs
 from pointchart.points.neighbors import Neighborhoods
 from pointchart.points.surroundings import explore
-from pointchart.recover import recover_links
-from pointchart.relocate import mesh_energy
-from pointchart.swaps import swap_to_delaunay
-from pointchart.triangulate import triangulate
 
 
 def links_of(triangles, n):

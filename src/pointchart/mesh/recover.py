@@ -4,11 +4,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ._kernels.recover import JOURNAL
-from ._kernels.recover import recover as recover_kernel
-from .agreement.links import FULL_TRUST, Links
-from .mesh import start_draft
-from .typing import UV, Points, Triangles
+from .._kernels.mesh.recover_edges import JOURNAL
+from .._kernels.mesh.recover_edges import recover as recover_kernel
+from ..agreement.links import FULL_TRUST, Links
+from ..typing import UV, Points, Triangles
+from .connectivity import start_draft
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -4,8 +4,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from strategies import flat, planar_discs, rotations, seeds
 
-from pointchart.mesh import half_edges
-from pointchart.quality import (
+from pointchart.mesh.connectivity import half_edges
+from pointchart.mesh.quality import (
     area_vectors,
     dihedral_angles,
     edge_lengths,

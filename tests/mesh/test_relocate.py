@@ -8,12 +8,19 @@ from pointchart import shapes
 from pointchart.agreement.links import link_stars
 from pointchart.certify import certify
 from pointchart.errors import InputError
-from pointchart.mesh import boundary_loops, half_edges, one_rings, start_draft
+from pointchart.mesh.connectivity import boundary_loops, half_edges, one_rings, start_draft
+from pointchart.mesh.delaunay_swaps import swap_to_delaunay
+from pointchart.mesh.quality import dihedral_angles
+from pointchart.mesh.relocate import (
+    JOURNAL,
+    least_gain,
+    mesh_energy,
+    relocate_in_place,
+    relocate_points,
+    suspect_points,
+)
 from pointchart.points.neighbors import Neighborhoods, nearest
 from pointchart.points.surroundings import explore
-from pointchart.quality import dihedral_angles
-from pointchart.relocate import JOURNAL, least_gain, mesh_energy, relocate_in_place, relocate_points, suspect_points
-from pointchart.swaps import swap_to_delaunay
 
 
 def suspects_in(points, triangles, links, among=None):

@@ -4,12 +4,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ._kernels.assemble import cap, cut_walks, keep_largest, mark_pinching, mark_rims, to_half_edges
-from ._kernels.half_edges import pair_half_edges
-from ._kernels.unsigned import unsigned
-from .agreement.agreed_surface import Patchwork
-from .boundary import is_same_loop
-from .typing import Indices, Loop, Points, Triangles
+from .._kernels.mesh.half_edges import pair_half_edges
+from .._kernels.mesh.pockets import cap, cut_walks, keep_largest, mark_pinching, mark_rims, to_half_edges
+from .._kernels.unsigned import unsigned
+from ..agreement.agreed_surface import Patchwork
+from ..boundary import is_same_loop
+from ..typing import Indices, Loop, Points, Triangles
 
 ROUNDS = 10  # of pinches: dropping a fan may leave others
 

@@ -11,13 +11,13 @@ lowering that: these swaps are for precise points on surfaces with creases.
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ._check import check_points, check_triangles
-from ._kernels.curvature_swaps import GAUSSIAN, MEAN, NORMALS, PRINCIPAL, curvature_swaps, sum_curvature
-from .errors import InputError
-from .mesh import half_edges
-from .points.neighbors import spacing
-from .swaps import Swapped
-from .typing import Triangles
+from .._check import check_points, check_triangles
+from .._kernels.mesh.curvature_swaps import GAUSSIAN, MEAN, NORMALS, PRINCIPAL, curvature_swaps, sum_curvature
+from ..errors import InputError
+from ..points.neighbors import spacing
+from ..typing import Triangles
+from .connectivity import half_edges
+from .delaunay_swaps import Swapped
 
 
 def swap_to_least_turn(points: ArrayLike, triangles: Triangles) -> Swapped:

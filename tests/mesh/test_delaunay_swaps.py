@@ -10,13 +10,13 @@ from pointchart.boundary.layout import chord_length_steps, on_circle
 from pointchart.certify import certify
 from pointchart.map.convex_combination import parameterize
 from pointchart.map.weights import mean_value, reciprocal_distance, shape_preserving
-from pointchart.mesh import boundary_loops, half_edges, one_rings
+from pointchart.mesh.connectivity import boundary_loops, half_edges, one_rings
+from pointchart.mesh.delaunay_swaps import swap_in_place, swap_to_delaunay
+from pointchart.mesh.planar_delaunay import triangulate
 from pointchart.plane.exact_signs import orientation_signs
 from pointchart.points.neighbors import nearest
 from pointchart.points.stars import delaunay_star
 from pointchart.shapes import tube
-from pointchart.swaps import swap_in_place, swap_to_delaunay
-from pointchart.triangulate import triangulate
 
 MAPS = {
     "reciprocal weights on the 20 nearest": (reciprocal_distance, lambda points: nearest(points, 20)),

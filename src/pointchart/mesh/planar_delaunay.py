@@ -4,12 +4,12 @@ import numpy as np
 import startinpy
 from numpy.typing import ArrayLike
 
-from ._check import check_loop
-from ._kernels.peel import peel
-from .errors import InputError, SolveError
-from .mesh import half_edges
-from .points.morton import morton_order
-from .typing import UV, Indices, Loop, Triangles
+from .._check import check_loop
+from .._kernels.mesh.peel import peel
+from ..errors import InputError, SolveError
+from ..points.morton import morton_order
+from ..typing import UV, Indices, Loop, Triangles
+from .connectivity import half_edges
 
 GOLDEN_RATIO = 0.6180339887498949
 

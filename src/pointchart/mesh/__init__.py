@@ -1,0 +1,1 @@
+"""The mesh: triangulated or assembled, its edges swapped, mended and measured."""
