@@ -30,7 +30,7 @@ from pointchart import (
     reconstruct,
     shapes,
 )
-from pointchart.gaps import SECOND_BOUNDARY
+from pointchart.gaps.rules import SECOND_BOUNDARY
 from pointchart.picture import draw_boundary
 from pointchart.shapes import Shape
 from pointchart.typing import Floats, Indices, Loop, Mask, Points, Triangles

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from pointchart import FormatError, SolveError, StageClock, certify, leave_gaps_open, reconstruct, shapes
-from pointchart.bridges import Bridge
+from pointchart.gaps.bridges import Bridge
 from pointchart.report import (
     boundary_lines,
     certificate_lines,

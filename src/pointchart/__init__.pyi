@@ -48,7 +48,7 @@ from .fit import (
     fit_radial as fit_radial,
     interpolate_clough_tocher as interpolate_clough_tocher,
 )
-from .gaps import (
+from .gaps.rules import (
     bridge_gaps as bridge_gaps,
     leave_gaps_open as leave_gaps_open,
     refuse_second_boundary as refuse_second_boundary,

@@ -9,12 +9,12 @@ from numpy.typing import ArrayLike
 from .agreement.links import disputed_links, link_stars, tie_down, trusted
 from .boundary import Candidate, chord_length_on_circle
 from .boundary.bounded import Survey, survey_scan
-from .bridges import Bridge, find_bridges, open_gaps
 from .certify import Certificate, certify
 from .chart import ChartRule, uv_free_boundary, uv_low_stretch, uv_of_points, uv_on_mesh
 from .clock import StageClock
 from .errors import PointchartError, SolveError, points_called
-from .gaps import GapRule, Rims, bridge_gaps, check_torn, refuse_second_boundary
+from .gaps.bridges import Bridge, find_bridges, open_gaps
+from .gaps.rules import GapRule, Rims, bridge_gaps, check_torn, refuse_second_boundary
 from .map.convex_combination import Parameterization, parameterize
 from .map.weights import WeightScheme, mean_value
 from .mesh.delaunay_swaps import Swapped, keep_edges, swap_off_sides, swap_to_delaunay

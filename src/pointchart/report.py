@@ -10,10 +10,10 @@ from typing import Any
 import numpy as np
 
 from .boundary import Candidate, perimeter
-from .bridges import Bridge
 from .certify import Certificate
 from .clock import StageClock
-from .gaps import place_of
+from .gaps.bridges import Bridge
+from .gaps.rules import place_of
 from .intersections import places_of, self_intersections
 from .io import replacing
 from .mesh.quality import (

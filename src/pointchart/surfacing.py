@@ -6,7 +6,6 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ._check import check_points
-from .bridges import Bridge
 from .chart import ChartRule, uv_free_boundary, uv_low_stretch
 from .clock import StageClock
 from .errors import InputError, SolveError
@@ -14,7 +13,8 @@ from .fit import Deviation, Fit, fit_bspline, measure_deviation, squares
 from .fit.knots import MARGIN
 from .fit.loss import Loss
 from .fit.refine import check_tolerance
-from .gaps import GapRule, Rims, leave_gaps_open, refuse_second_boundary
+from .gaps.bridges import Bridge
+from .gaps.rules import GapRule, Rims, leave_gaps_open, refuse_second_boundary
 from .mesh.connectivity import boundary_loops, half_edges
 from .pipeline import LayoutRule, Reconstruction, reconstruct
 from .plane.exact_signs import is_simple

@@ -88,7 +88,7 @@ def _columns(loops: list[Loop], scores: BoundaryScores, rows: Indices, places: I
 
 
 def _lines(out: Path, survey: Survey, loops: list[Loop]) -> list[str]:
-    from ..gaps import place_of
+    from ..gaps.rules import place_of
 
     chosen, *others = survey.candidates
     lines = [

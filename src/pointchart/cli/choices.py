@@ -7,9 +7,10 @@ from pathlib import Path
 import numpy as np
 import typer
 
-from .. import boundary, chart, gaps
+from .. import boundary, chart
 from ..chart import ChartRule
-from ..gaps import GapRule
+from ..gaps import rules as gaps
+from ..gaps.rules import GapRule
 from ..map import weights
 from ..map.weights import WeightScheme
 from ..mesh import crease_swaps as curvature_swaps

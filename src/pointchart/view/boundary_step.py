@@ -10,7 +10,7 @@ import viser
 from .._check import check_loop
 from ..boundary import perimeter, reversed_loop
 from ..errors import InputError, PointchartError
-from ..gaps import place_of
+from ..gaps.rules import place_of
 from ..io import read_loop, read_scan, write_loop
 from ..typing import UV, Floats, Indices
 from .loop_by_hand import LoopByHand, dropped, inserted, nearest_of

@@ -5,7 +5,7 @@ from hypothesis import strategies as st
 from strategies import planar_discs, seeds
 
 from pointchart import certify, reconstruct, shapes, spacing, survey_scan
-from pointchart.bridges import GAP_SHARE, LONG_EDGE, find_bridges, open_gaps
+from pointchart.gaps.bridges import GAP_SHARE, LONG_EDGE, find_bridges, open_gaps
 from pointchart.mesh.connectivity import boundary_loops, half_edges
 
 GAPS = (([0.4, 0.2], 0.2), ([-0.4, -0.3], 0.15))

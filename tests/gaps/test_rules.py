@@ -13,8 +13,8 @@ from pointchart import (
     shapes,
     uv_of_points,
 )
-from pointchart.bridges import GAP_SHARE, Bridge
-from pointchart.gaps import (
+from pointchart.gaps.bridges import GAP_SHARE, Bridge
+from pointchart.gaps.rules import (
     CLEAR,
     LEAST_SPACINGS,
     MESSY_SHARE,

@@ -5,10 +5,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .boundary import Candidate, perimeter
+from ..boundary import Candidate, perimeter
+from ..errors import SolveError
+from ..typing import Floats, Indices, Loop, Points, Triangles
 from .bridges import Bridge
-from .errors import SolveError
-from .typing import Floats, Indices, Loop, Points, Triangles
 
 SECOND_BOUNDARY = 0.25  # a gap with this share of the boundary's length may as well be the boundary
 SECOND_SPACINGS = 24.0  # but a shorter one is a gap of the sampling, however short the boundary is

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.sparse as sp
 
-from ._kernels.mesh.half_edges import measure_edges
-from ._parallel import over_ranges
-from .mesh.connectivity import half_edges
-from .typing import Floats, Indices, Mask, Points, Triangles
+from .._kernels.mesh.half_edges import measure_edges
+from .._parallel import over_ranges
+from ..mesh.connectivity import half_edges
+from ..typing import Floats, Indices, Mask, Points, Triangles
 
 LONG_EDGE = 4.0  # local spacings
 GAP_SHARE = 0.5  # of a bridge's corners that score as boundary points, from which on it lies over a gap of the scan
