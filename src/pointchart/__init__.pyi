@@ -21,7 +21,7 @@ from .boundary import (
     uniform_steps as uniform_steps,
 )
 from .certify import Certificate as Certificate, certify as certify
-from .chart import (
+from .chart.on_mesh import (
     uv_free_boundary as uv_free_boundary,
     uv_low_stretch as uv_low_stretch,
     uv_of_points as uv_of_points,
@@ -35,7 +35,7 @@ from .mesh.crease_swaps import (
     swap_to_least_mean_curvature as swap_to_least_mean_curvature,
     swap_to_least_turn as swap_to_least_turn,
 )
-from .dirichlet import Flattened as Flattened, minimize_dirichlet as minimize_dirichlet
+from .chart.free_boundary import Flattened as Flattened, minimize_dirichlet as minimize_dirichlet
 from .errors import (
     FormatError as FormatError,
     InputError as InputError,

@@ -10,7 +10,7 @@ from .agreement.links import disputed_links, link_stars, tie_down, trusted
 from .boundary import Candidate, chord_length_on_circle
 from .boundary.bounded import Survey, survey_scan
 from .certify import Certificate, certify
-from .chart import ChartRule, uv_free_boundary, uv_low_stretch, uv_of_points, uv_on_mesh
+from .chart.on_mesh import ChartRule, uv_free_boundary, uv_low_stretch, uv_of_points, uv_on_mesh
 from .clock import StageClock
 from .errors import PointchartError, SolveError, points_called
 from .gaps.bridges import Bridge, find_bridges, open_gaps

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from .chart import ChartRule, uv_free_boundary, uv_low_stretch
+from .chart.on_mesh import ChartRule, uv_free_boundary, uv_low_stretch
 from .fit import Level, deviation_table
 from .surfacing import SurfacedScan
 from .typing import Points

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ._check import check_points
-from .chart import ChartRule, uv_free_boundary, uv_low_stretch
+from .chart.on_mesh import ChartRule, uv_free_boundary, uv_low_stretch
 from .clock import StageClock
 from .errors import InputError, SolveError
 from .fit import Deviation, Fit, fit_bspline, measure_deviation, squares

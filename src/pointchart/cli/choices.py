@@ -7,8 +7,9 @@ from pathlib import Path
 import numpy as np
 import typer
 
-from .. import boundary, chart
-from ..chart import ChartRule
+from .. import boundary
+from ..chart import on_mesh as chart
+from ..chart.on_mesh import ChartRule
 from ..gaps import rules as gaps
 from ..gaps.rules import GapRule
 from ..map import weights

@@ -6,12 +6,12 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import ArrayLike
 
-from ._check import check_loop, check_points, check_triangles
-from .errors import InputError
-from .mesh.quality import area_vectors
-from .plane.exact_signs import is_simple, orientation_signs
-from .solve.systems import Direct, Solution
-from .typing import UV, Floats, Indices, Loop, Mask, Points, Triangles
+from .._check import check_loop, check_points, check_triangles
+from ..errors import InputError
+from ..mesh.quality import area_vectors
+from ..plane.exact_signs import is_simple, orientation_signs
+from ..solve.systems import Direct, Solution
+from ..typing import UV, Floats, Indices, Loop, Mask, Points, Triangles
 
 MOST_STEPS = 100
 LEAST_ENERGY = 4.0  # of an isometry

@@ -9,19 +9,19 @@ from typing import TypeAlias, cast
 import numpy as np
 import scipy.sparse as sp
 
-from .dirichlet import minimize_dirichlet
-from .errors import InputError, PointchartError, SolveError
-from .map.convex_combination import Parameterization, parameterize, solve_map
-from .map.protrusions import openings
-from .map.weights import WeightScheme, fixed, mean_value, normalize, uniform
-from .mesh.connectivity import one_rings
-from .mesh.make import Meshed
-from .mesh.quality import l2_stretch, vertex_stretches
-from .plane.exact_signs import orientation_signs
-from .points.neighbors import Neighborhoods
-from .solve.algebraic_multigrid import multigrid
-from .solve.systems import Solver, solve_fixed
-from .typing import UV, Loop, Points, Triangles
+from ..errors import InputError, PointchartError, SolveError
+from ..map.convex_combination import Parameterization, parameterize, solve_map
+from ..map.protrusions import openings
+from ..map.weights import WeightScheme, fixed, mean_value, normalize, uniform
+from ..mesh.connectivity import one_rings
+from ..mesh.make import Meshed
+from ..mesh.quality import l2_stretch, vertex_stretches
+from ..plane.exact_signs import orientation_signs
+from ..points.neighbors import Neighborhoods
+from ..solve.algebraic_multigrid import multigrid
+from ..solve.systems import Solver, solve_fixed
+from ..typing import UV, Loop, Points, Triangles
+from .free_boundary import minimize_dirichlet
 
 QUICK_TOLERANCES = 1e-6, 1e-10  # of the first maps, each tried for being one-to-one
 DIRECT_LIMIT = 10_000  # points up to which factors cost less than a hierarchy of matrices

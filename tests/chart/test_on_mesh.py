@@ -29,11 +29,11 @@ from pointchart import (
     vertex_stretches,
     write_mesh,
 )
-from pointchart import chart as charts
 from pointchart.boundary import chord_length_on_circle
-from pointchart.chart import DIRECT_LIMIT, QUICK_TOLERANCES
+from pointchart.chart import on_mesh as charts
+from pointchart.chart.free_boundary import first_flat
+from pointchart.chart.on_mesh import DIRECT_LIMIT, QUICK_TOLERANCES
 from pointchart.cli.choices import CHARTS, Chart
-from pointchart.dirichlet import first_flat
 from pointchart.mesh.delaunay_swaps import Swapped
 from pointchart.mesh.make import Meshed
 from pointchart.mesh.quality import area_vectors
