@@ -22,12 +22,12 @@ from paper_scans import DATA, METHODS, PAPER, TOLERANCE, Run, Scan, from_truth, 
 from scipy.spatial import cKDTree
 
 from pointchart.boundary.layout import chord_length_steps, on_circle
-from pointchart.certify import certify
 from pointchart.mesh.connectivity import half_edges
 from pointchart.mesh.delaunay_swaps import swap_to_delaunay
 from pointchart.mesh.planar_delaunay import triangulate
 from pointchart.mesh.quality import least_distance
 from pointchart.points.neighbors import ball, spacing
+from pointchart.proof.certificate import certify
 from pointchart.shapes import Shape, add_noise
 from pointchart.solve.systems import Solved, bicgstab, solve_fixed
 from pointchart.typing import UV, Floats, Indices, Loop, Points, Triangles

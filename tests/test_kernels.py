@@ -26,12 +26,12 @@ from pointchart._kernels.solve import cycles as steps
 from pointchart._kernels.unsigned import unsigned
 from pointchart.agreement.agreed_surface import patchwork
 from pointchart.fit import fit_radial, interpolate_clough_tocher
-from pointchart.intersections import box_tree
 from pointchart.mesh.connectivity import half_edges, one_rings, start_draft
 from pointchart.mesh.planar_delaunay import triangulate
 from pointchart.plane.exact_signs import orientation_signs
 from pointchart.points.neighbors import BoxTree, Neighborhoods, nearest, spacing
 from pointchart.points.stars import delaunay_star, normals
+from pointchart.proof.intersections import box_tree
 from pointchart.shapes import disc, moebius, relief
 from pointchart.solve.hierarchy import split
 

@@ -20,7 +20,7 @@ from .boundary import (
     sharpest_places as sharpest_places,
     uniform_steps as uniform_steps,
 )
-from .certify import Certificate as Certificate, certify as certify
+from .proof.certificate import Certificate as Certificate, certify as certify
 from .chart.on_mesh import (
     uv_free_boundary as uv_free_boundary,
     uv_low_stretch as uv_low_stretch,
@@ -53,7 +53,7 @@ from .gaps.rules import (
     leave_gaps_open as leave_gaps_open,
     refuse_second_boundary as refuse_second_boundary,
 )
-from .intersections import self_intersections as self_intersections
+from .proof.intersections import self_intersections as self_intersections
 from .io import (
     Scan as Scan,
     read_loop as read_loop,

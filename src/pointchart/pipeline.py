@@ -9,7 +9,6 @@ from numpy.typing import ArrayLike
 from .agreement.links import disputed_links, link_stars, tie_down, trusted
 from .boundary import Candidate, chord_length_on_circle
 from .boundary.bounded import Survey, survey_scan
-from .certify import Certificate, certify
 from .chart.on_mesh import ChartRule, uv_free_boundary, uv_low_stretch, uv_of_points, uv_on_mesh
 from .clock import StageClock
 from .errors import PointchartError, SolveError, points_called
@@ -23,6 +22,7 @@ from .points.cloud import Cloud
 from .points.neighbors import Neighborhoods, nearest
 from .points.stars import nearest_star
 from .points.surroundings import NEAREST
+from .proof.certificate import Certificate, certify
 from .solve.systems import Solver, default_solver
 from .typing import UV, Indices, Loop, Points, Triangles
 

@@ -10,11 +10,9 @@ from typing import Any
 import numpy as np
 
 from .boundary import Candidate, perimeter
-from .certify import Certificate
 from .clock import StageClock
 from .gaps.bridges import Bridge
 from .gaps.rules import place_of
-from .intersections import places_of, self_intersections
 from .io import replacing
 from .mesh.quality import (
     area_distortions,
@@ -26,6 +24,8 @@ from .mesh.quality import (
     radius_ratios,
 )
 from .pipeline import Reconstruction
+from .proof.certificate import Certificate
+from .proof.intersections import places_of, self_intersections
 from .solve.systems import Solution
 from .typing import UV, Floats, Indices, Points, Triangles
 

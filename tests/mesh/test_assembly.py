@@ -8,10 +8,10 @@ from strategies import planar_discs, rotations, seeds
 from pointchart import shapes
 from pointchart.agreement.agreed_surface import patchwork
 from pointchart.boundary import perimeter
-from pointchart.certify import certify
 from pointchart.mesh.assembly import assemble
 from pointchart.mesh.connectivity import half_edges
 from pointchart.plane.exact_signs import orientation_signs
+from pointchart.proof.certificate import certify
 
 BENDS = {
     "flat": lambda uv: np.c_[uv, 0 * uv[:, 0]],

@@ -9,7 +9,6 @@ from strategies import planar_discs, rotations, seeds
 
 from pointchart import shapes
 from pointchart._kernels.mesh import curvature_swaps as kernels
-from pointchart.certify import certify
 from pointchart.cli.choices import SWAPS, Swap
 from pointchart.mesh.connectivity import boundary_loops, half_edges
 from pointchart.mesh.crease_swaps import (
@@ -21,6 +20,7 @@ from pointchart.mesh.crease_swaps import (
 from pointchart.mesh.delaunay_swaps import swap_to_delaunay
 from pointchart.pipeline import reconstruct
 from pointchart.points.neighbors import spacing
+from pointchart.proof.certificate import certify
 
 
 def bends(points, triangles):

@@ -7,7 +7,6 @@ from scipy.spatial import Delaunay
 from strategies import flat, planar_discs, rotations, seeds
 
 from pointchart.boundary.layout import chord_length_steps, on_circle
-from pointchart.certify import certify
 from pointchart.map.convex_combination import parameterize
 from pointchart.map.weights import mean_value, reciprocal_distance, shape_preserving
 from pointchart.mesh.connectivity import boundary_loops, half_edges, one_rings
@@ -16,6 +15,7 @@ from pointchart.mesh.planar_delaunay import triangulate
 from pointchart.plane.exact_signs import orientation_signs
 from pointchart.points.neighbors import nearest
 from pointchart.points.stars import delaunay_star
+from pointchart.proof.certificate import certify
 from pointchart.shapes import tube
 
 MAPS = {

@@ -6,7 +6,6 @@ from strategies import planar_discs, rotations, seeds
 
 from pointchart import shapes
 from pointchart.agreement.links import Links, link_stars
-from pointchart.certify import certify
 from pointchart.mesh.connectivity import boundary_loops, half_edges, one_rings
 from pointchart.mesh.delaunay_swaps import swap_to_delaunay
 from pointchart.mesh.planar_delaunay import triangulate
@@ -16,6 +15,7 @@ from pointchart.pipeline import reconstruct
 from pointchart.plane.exact_signs import orientation_signs
 from pointchart.points.neighbors import Neighborhoods
 from pointchart.points.surroundings import explore
+from pointchart.proof.certificate import certify
 
 
 def links_of(triangles, n):

@@ -6,7 +6,6 @@ from strategies import planar_discs, rotations, seeds
 
 from pointchart import shapes
 from pointchart.agreement.links import link_stars
-from pointchart.certify import certify
 from pointchart.errors import InputError
 from pointchart.mesh.connectivity import boundary_loops, half_edges, one_rings, start_draft
 from pointchart.mesh.delaunay_swaps import swap_to_delaunay
@@ -21,6 +20,7 @@ from pointchart.mesh.relocate import (
 )
 from pointchart.points.neighbors import Neighborhoods, nearest
 from pointchart.points.surroundings import explore
+from pointchart.proof.certificate import certify
 
 
 def suspects_in(points, triangles, links, among=None):

@@ -5,7 +5,6 @@ from hypothesis import strategies as st
 from strategies import clouds, seeds
 
 from pointchart.boundary.layout import chord_length_steps, on_circle
-from pointchart.certify import certify
 from pointchart.errors import InputError
 from pointchart.map.convex_combination import parameterize
 from pointchart.mesh.delaunay_swaps import swap_to_delaunay
@@ -13,6 +12,7 @@ from pointchart.mesh.planar_delaunay import triangulate
 from pointchart.points.cloud import prepare
 from pointchart.points.neighbors import nearest
 from pointchart.points.stars import delaunay_star
+from pointchart.proof.certificate import certify
 from pointchart.shapes import relief, sculpture, shuffle
 
 

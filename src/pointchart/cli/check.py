@@ -29,9 +29,9 @@ def check(
     quiet: given.QuietOption = False,
 ) -> None:
     """Check that a mesh is a disc, on the points of a scan if one is given; exit 1 if it is not."""
-    from ..certify import certify
     from ..errors import InputError
     from ..io import check_output, read_scan
+    from ..proof.certificate import certify
     from ..report import certificate_lines, certificate_report, summary, write_json
     from .inputs import uv_of
 

@@ -9,14 +9,14 @@ from numpy.typing import ArrayLike
 from .._check import check_points, check_triangles, check_uv
 from .._kernels import clough_tocher as kernels
 from .._parallel import over_ranges
-from ..certify import certify
 from ..errors import InputError, name_some
-from ..intersections import box_tree
 from ..mesh.connectivity import HalfEdges, boundary_loops, half_edges
 from ..mesh.planar_delaunay import coinciding
 from ..mesh.quality import edge_lengths
 from ..plane.exact_signs import orientation_signs
 from ..points.morton import morton_order
+from ..proof.certificate import certify
+from ..proof.intersections import box_tree
 from ..typing import UV, Floats, Indices, Points, Triangles
 
 # The error falls by 2 + sqrt(3) a step, so this many steps take it below rounding.

@@ -12,10 +12,10 @@ from .._check import check_points, check_uv
 from .._kernels import radial as kernels
 from .._parallel import over_ranges
 from ..errors import InputError, SolveError
-from ..intersections import box_tree
 from ..mesh.planar_delaunay import coinciding
 from ..points.morton import morton_order
 from ..points.neighbors import search
+from ..proof.intersections import box_tree
 from ..solve.systems import ONE_THREAD
 from ..typing import UV, Floats, Indices, Points
 

@@ -5,16 +5,16 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ._check import check_loop, check_points, check_triangles
-from ._kernels.mesh.half_edges import count_parts, measure_edges
-from ._parallel import over_ranges
-from .boundary import is_same_loop
-from .errors import InputError
-from .mesh.connectivity import HalfEdges, boundary_loops, fans, half_edges
-from .mesh.planar_delaunay import coinciding
-from .plane.exact_signs import is_simple, orientation_signs
-from .points.neighbors import spacing as local_spacing
-from .typing import UV, Floats, Loop, Points
+from .._check import check_loop, check_points, check_triangles
+from .._kernels.mesh.half_edges import count_parts, measure_edges
+from .._parallel import over_ranges
+from ..boundary import is_same_loop
+from ..errors import InputError
+from ..mesh.connectivity import HalfEdges, boundary_loops, fans, half_edges
+from ..mesh.planar_delaunay import coinciding
+from ..plane.exact_signs import is_simple, orientation_signs
+from ..points.neighbors import spacing as local_spacing
+from ..typing import UV, Floats, Loop, Points
 
 FOLD_COSINE = np.cos(np.deg2rad(150.0))
 

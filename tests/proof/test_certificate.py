@@ -6,10 +6,10 @@ from strategies import flat, rotations, seeds
 
 from pointchart import shapes
 from pointchart.boundary.layout import on_circle, on_square
-from pointchart.certify import certify
 from pointchart.errors import InputError
 from pointchart.map.convex_combination import parameterize
 from pointchart.mesh.connectivity import one_rings
+from pointchart.proof.certificate import certify
 from pointchart.shapes import disc
 
 SQUARE = np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]])

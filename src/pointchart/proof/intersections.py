@@ -7,11 +7,11 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import ArrayLike
 
-from ._check import check_points, check_triangles
-from ._kernels.intersections import find_meetings
-from ._parallel import over_ranges
-from .points.morton import morton_order
-from .typing import Floats, Indices, Points, Triangles
+from .._check import check_points, check_triangles
+from .._kernels.proof.triangle_meetings import find_meetings
+from .._parallel import over_ranges
+from ..points.morton import morton_order
+from ..typing import Floats, Indices, Points, Triangles
 
 Vector: TypeAlias = list[int]
 

@@ -9,7 +9,7 @@ from strategies import rotations, seeds
 
 from pointchart import shapes
 from pointchart.errors import InputError
-from pointchart.intersections import places_of, self_intersections
+from pointchart.proof.intersections import places_of, self_intersections
 
 FLAT = np.array([[0.0, 0, 0], [4, 0, 0], [0, 4, 0]])
 QUARTER_TURNS = [np.eye(3)[:, order] * sign for order in ([1, 0, 2], [2, 1, 0], [1, 2, 0]) for sign in (1, [1, -1, 1])]
