@@ -7,8 +7,8 @@ import pytest
 from matplotlib import image
 
 from pointchart import shapes
-from pointchart.fit import BSplineSurface, evaluate
 from pointchart.io import write_mesh
+from pointchart.surface import BSplineSurface, evaluate
 from pointchart.surface_io import write_surface_json
 
 CAP = shapes.hemisphere(400)

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from pointchart import certify, read_scan, shapes, write_loop, write_mesh
-from pointchart.fit import closest_parameters, evaluate
+from pointchart.surface import closest_parameters, evaluate
 from pointchart.surface_io import read_cad, read_surface_json
 
 NO_FACES = np.empty((0, 3), np.int64)

@@ -14,8 +14,8 @@ from pointchart import FormatError, InputError, scene, shapes
 from pointchart.camera import camera, upright_axes, upward
 from pointchart.figures import Sheet, draw_cloud, draw_deviation_map, draw_mesh, draw_plane, draw_zebra
 from pointchart.figures import surfaces as of_surfaces
-from pointchart.fit import BSplineSurface, evaluate
 from pointchart.picture import ACCENT, INK
+from pointchart.surface import BSplineSurface, evaluate
 
 DISC = shapes.disc(400, seed=1)
 CAP = shapes.hemisphere(400)

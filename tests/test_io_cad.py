@@ -9,7 +9,7 @@ import pytest
 from scipy.spatial import KDTree
 
 from pointchart.errors import FormatError, InputError, SolveError
-from pointchart.fit import BSplineSurface, evaluate, normals
+from pointchart.surface import BSplineSurface, evaluate, normals
 from pointchart.surface_io import CAD_SUFFIXES, MILLIMETRES, compare, read_cad, write_cad
 from pointchart.surface_io.cad import read_face
 from pointchart.surface_io.checks import signed_area

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from pointchart.errors import FormatError, InputError
-from pointchart.fit import BSplineSurface
+from pointchart.surface import BSplineSurface
 from pointchart.surface_io import MILLIMETRES, read_surface_json, write_surface_json
 from pointchart.surface_io.checks import check_loops
 

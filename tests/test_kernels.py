@@ -10,7 +10,6 @@ from hypothesis import strategies as st
 from strategies import integer_sets, seeds
 
 from pointchart import _kernels
-from pointchart._kernels import constrain
 from pointchart._kernels.agreement import agreed_triangles as rims
 from pointchart._kernels.boundary import sides
 from pointchart._kernels.mesh import drafts
@@ -23,9 +22,9 @@ from pointchart._kernels.points import inversion as stars
 from pointchart._kernels.points import tangent_planes as planes
 from pointchart._kernels.solve import coarsen
 from pointchart._kernels.solve import cycles as steps
+from pointchart._kernels.surface import constrain
 from pointchart._kernels.unsigned import unsigned
 from pointchart.agreement.agreed_surface import patchwork
-from pointchart.fit import fit_radial, interpolate_clough_tocher
 from pointchart.mesh.connectivity import half_edges, one_rings, start_draft
 from pointchart.mesh.planar_delaunay import triangulate
 from pointchart.plane.exact_signs import orientation_signs
@@ -34,6 +33,7 @@ from pointchart.points.stars import delaunay_star, normals
 from pointchart.proof.intersections import box_tree
 from pointchart.shapes import disc, moebius, relief
 from pointchart.solve.hierarchy import split
+from pointchart.surface import fit_radial, interpolate_clough_tocher
 
 SHAPE = relief(60, seed=3)
 N = len(SHAPE.points)

@@ -10,9 +10,9 @@ from matplotlib import pyplot as plt
 from strategies import rotations
 
 from pointchart import FormatError, InputError, scene
-from pointchart.fit import BSplineSurface, Deviation, evaluate, normals
 from pointchart.picture import INK, PAPER
 from pointchart.scene import reflection_angles
+from pointchart.surface import BSplineSurface, Deviation, evaluate, normals
 from pointchart.surface_picture import draw_deviation, draw_reflections
 
 SIZE = (814, 1650)

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from pointchart.chart.on_mesh import uv_free_boundary
-from pointchart.fit import BSplineSurface, Deviation, Fit, Level
+from pointchart.surface import BSplineSurface, Deviation, Fit, Level
+from pointchart.surface.surfacing import SurfacedScan
 from pointchart.surface_report import explain_lines, surface_lines, surface_report
-from pointchart.surfacing import SurfacedScan
 
 LOOP = np.array([[0.0, 0], [3, 0], [3, 2], [0, 2]])
 LEVELS = [Level(49, 1e-3, 0.5, 0.25, 0.26), Level(88, 1e-9, 0.0625, 0.03, 0.04)]

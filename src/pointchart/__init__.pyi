@@ -42,7 +42,7 @@ from .errors import (
     PointchartError as PointchartError,
     SolveError as SolveError,
 )
-from .fit import (
+from .surface import (
     BSplineSurface as BSplineSurface,
     fit_bspline as fit_bspline,
     fit_radial as fit_radial,
@@ -112,7 +112,7 @@ from .surface_io import (
     write_cad as write_cad,
     write_surface_json as write_surface_json,
 )
-from .surfacing import SurfacedScan as SurfacedScan, fit_scan as fit_scan
+from .surface.surfacing import SurfacedScan as SurfacedScan, fit_scan as fit_scan
 from .boundary.bounded import Survey as Survey, survey_scan as survey_scan
 from .mesh.delaunay_swaps import Swapped as Swapped, keep_edges as keep_edges, swap_to_delaunay as swap_to_delaunay
 from .mesh.planar_delaunay import triangulate as triangulate

@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .camera import OBLIQUE
-from .fit import Surface
-from .fit.tessellate import tessellate
 from .mesh.quality import area_vectors
+from .surface import Surface
+from .surface.tessellation import tessellate
 from .typing import UV, Floats, Indices, Mask, Points, Triangles
 
 Box: TypeAlias = tuple[float, float, float, float]

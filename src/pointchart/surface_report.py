@@ -6,8 +6,8 @@ from typing import Any
 import numpy as np
 
 from .chart.on_mesh import ChartRule, uv_free_boundary, uv_low_stretch
-from .fit import Level, deviation_table
-from .surfacing import SurfacedScan
+from .surface import Level, deviation_table
+from .surface.surfacing import SurfacedScan
 from .typing import Points
 
 CHARTS: dict[ChartRule, str] = {

@@ -15,7 +15,7 @@ from .progress import staged
 from .words import Domain, Holes, Spacing, SurfaceDomain, Unit
 
 if TYPE_CHECKING:
-    from ..surfacing import SurfacedScan
+    from ..surface.surfacing import SurfacedScan
     from ..typing import Points
     from .inputs import Inputs
 
@@ -105,16 +105,16 @@ def fit(
     """Fit a trimmed B-spline surface to a scan of one surface patch, to a tolerance, for CAD."""
     from .._parallel import on_threads
     from ..errors import points_called
-    from ..fit import huber, squares
     from ..io import MESH_SUFFIXES, check_output, replacing
     from ..page import PAGE_SUFFIXES, lay_out, writing_page
     from ..picture import PICTURE_SUFFIXES
     from ..report import boundary_lines, intersection_lines, run_report, writing_json
+    from ..surface import huber, squares
+    from ..surface.surfacing import fit_scan
     from ..surface_io import CAD_SUFFIXES
     from ..surface_io.occ import check_extra
     from ..surface_picture import draw_deviation, draw_reflections
     from ..surface_report import explain_lines, surface_lines, surface_report
-    from ..surfacing import fit_scan
     from .choices import GAPS, amount, corner_names, fairness_weight, layout_rule, outer_place
     from .inputs import read_inputs
     from .output import given_options, page_words
@@ -200,7 +200,7 @@ def _diagonal(points: Points) -> float:
 def _check_met(surfaced: SurfacedScan, tolerance: float, outliers: float) -> None:
     """Check that the tolerance is met, naming the options that help where it is not."""
     from ..errors import SolveError
-    from ..surfacing import check_met
+    from ..surface.surfacing import check_met
 
     try:
         check_met(surfaced, tolerance, outliers)
@@ -225,8 +225,8 @@ def _write_deviations(path: Path, surfaced: SurfacedScan, inputs: Inputs) -> Non
 
 
 def _write_surface(out: Path, surfaced: SurfacedScan, unit: Unit) -> None:
-    from ..fit import tessellate
     from ..io import write_mesh
+    from ..surface import tessellate
     from ..surface_io import CAD_SUFFIXES, write_cad, write_surface_json
 
     surface, loops, suffix = surfaced.fit.surface, surfaced.loops, out.suffix.lower()

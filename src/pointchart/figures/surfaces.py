@@ -11,10 +11,10 @@ from scipy.spatial import cKDTree
 from .._check import check_points
 from ..camera import camera
 from ..errors import InputError
-from ..fit import Surface, closest_parameters, measure_deviation, tessellate
 from ..io.source import AnyPath
 from ..picture import save
 from ..scene import GRID, Scene, look_at_mesh
+from ..surface import Surface, closest_parameters, measure_deviation, tessellate
 from ..surface_picture import diverging, paint_deviation, paint_lines
 from ..typing import UV, Floats, Points, Triangles
 from .sheet import COLUMN, Panel, Sheet, check_sheet, image_pixels, lay_out, round_up, show_scale

@@ -7,9 +7,9 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import FormatError, SolveError
-from ..fit import BSplineSurface
 from ..io import check_output, replacing
 from ..io.source import AnyPath, check_readable
+from ..surface import BSplineSurface
 from ..typing import UV
 from .checks import check_loops, check_surface
 from .compare import check_written, is_valid

@@ -6,9 +6,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import InputError, name_some
-from ..fit import BSplineSurface
-from ..fit.knots import check_clamped
 from ..plane.polygons import signed_area
+from ..surface import BSplineSurface
+from ..surface.knots import check_clamped
 from ..typing import UV, Floats, Mask
 
 

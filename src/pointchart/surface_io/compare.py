@@ -6,9 +6,9 @@ from typing import Any
 import numpy as np
 
 from ..errors import FormatError
-from ..fit import BSplineSurface, evaluate
 from ..io.source import AnyPath
 from ..plane.polygons import signed_area
+from ..surface import BSplineSurface, evaluate
 from ..typing import UV
 from .checks import is_inside
 from .face import size_of

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 from scipy.interpolate import BSpline
 
-from ..fit import BSplineSurface
+from ..surface import BSplineSurface
 from ..typing import Floats
 from .lift import lift
 from .occ import array1, occ

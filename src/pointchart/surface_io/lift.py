@@ -3,7 +3,7 @@
 import numpy as np
 from scipy.interpolate import BSpline, make_interp_spline
 
-from ..fit import BSplineSurface, evaluate
+from ..surface import BSplineSurface, evaluate
 from ..typing import Floats, Points
 
 _CHECKS = np.array([0.2, 0.5, 0.8])

@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 
 from ..errors import FormatError, InputError
-from ..fit import BSplineSurface
 from ..io import check_output, replacing
 from ..io.source import AnyPath, decode, read_bytes
+from ..surface import BSplineSurface
 from ..typing import UV, Floats
 from .checks import check_loops, check_surface
 from .units import check_unit

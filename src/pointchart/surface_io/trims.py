@@ -12,7 +12,7 @@ import numpy as np
 from scipy.interpolate import BSpline, CubicSpline, make_interp_spline
 
 from ..errors import InputError, name_some
-from ..fit import BSplineSurface, evaluate
+from ..surface import BSplineSurface, evaluate
 from ..typing import UV, Floats, Indices, Mask, Points
 from .meetings import find_meetings
 

@@ -5,9 +5,9 @@ from typing import Any
 import numpy as np
 
 from ..errors import FormatError
-from ..fit import BSplineSurface
 from ..io.source import AnyPath
 from ..plane.polygons import signed_area
+from ..surface import BSplineSurface
 from ..typing import UV, Floats
 from .occ import occ
 

@@ -2,13 +2,13 @@
 
 from .bspline import BSplineSurface
 from .clough_tocher import CloughTocherSurface, interpolate_clough_tocher
+from .derivatives import Surface, closest_parameters, curvatures, evaluate, normals
 from .deviation import Deviation, deviation_table, measure_deviation
-from .least_squares import least_squares
 from .loss import huber, squares
+from .normal_equations import least_squares
 from .radial import RadialSurface, fit_radial
-from .refine import Fit, Level, fit_bspline
-from .surface import Surface, closest_parameters, curvatures, evaluate, normals
-from .tessellate import tessellate
+from .tessellation import tessellate
+from .to_tolerance import Fit, Level, fit_bspline
 
 __all__ = [
     "BSplineSurface",

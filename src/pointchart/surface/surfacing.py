@@ -5,21 +5,21 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ._check import check_points
-from .chart.on_mesh import ChartRule, uv_free_boundary, uv_low_stretch
-from .clock import StageClock
-from .errors import InputError, SolveError
-from .fit import Deviation, Fit, fit_bspline, measure_deviation, squares
-from .fit.knots import MARGIN
-from .fit.loss import Loss
-from .fit.refine import check_tolerance
-from .gaps.bridges import Bridge
-from .gaps.rules import GapRule, Rims, leave_gaps_open, refuse_second_boundary
-from .mesh.connectivity import boundary_loops, half_edges
-from .pipeline import LayoutRule, Reconstruction, reconstruct
-from .plane.exact_signs import is_simple
-from .plane.polygons import signed_area
-from .typing import UV, Points, Triangles
+from .._check import check_points
+from ..chart.on_mesh import ChartRule, uv_free_boundary, uv_low_stretch
+from ..clock import StageClock
+from ..errors import InputError, SolveError
+from ..gaps.bridges import Bridge
+from ..gaps.rules import GapRule, Rims, leave_gaps_open, refuse_second_boundary
+from ..mesh.connectivity import boundary_loops, half_edges
+from ..pipeline import LayoutRule, Reconstruction, reconstruct
+from ..plane.exact_signs import is_simple
+from ..plane.polygons import signed_area
+from ..typing import UV, Points, Triangles
+from . import Deviation, Fit, fit_bspline, measure_deviation, squares
+from .knots import MARGIN
+from .loss import Loss
+from .to_tolerance import check_tolerance
 
 FREE_MOST = 100_000  # points up to which a free boundary costs minutes at most; beyond, low stretch on the circle
 SPIKE = 120.0  # degrees

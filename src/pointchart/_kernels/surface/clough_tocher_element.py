@@ -8,7 +8,7 @@ import math
 import numpy as np
 from numba import njit
 
-from .plane.locate import doubled_area, find_triangle
+from ..plane.locate import doubled_area, find_triangle
 
 
 @njit(cache=True, nogil=True)

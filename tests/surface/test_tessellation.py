@@ -8,10 +8,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from pointchart.errors import InputError
-from pointchart.fit import BSplineSurface, evaluate, tessellate
 from pointchart.mesh.connectivity import boundary_loops, fans, half_edges
 from pointchart.mesh.quality import area_vectors, radius_ratios
 from pointchart.plane.exact_signs import orientation_signs
+from pointchart.surface import BSplineSurface, evaluate, tessellate
 
 UNIT = np.array([0.0, 0, 1, 1])
 BOX = np.array([[0.0, 0], [1, 0], [1, 1], [0, 1]])

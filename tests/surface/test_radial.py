@@ -5,7 +5,7 @@ from hypothesis import strategies as st
 from strategies import flat, planar_discs, rotations, seeds
 
 from pointchart import InputError, SolveError, shapes
-from pointchart.fit import evaluate, fit_radial
+from pointchart.surface import evaluate, fit_radial
 
 ORDERS = [(0, 0), (1, 0), (0, 1), (2, 0), (1, 1), (0, 2)]
 

@@ -5,7 +5,7 @@ import scipy.sparse as sp
 from numpy.typing import ArrayLike
 
 from .._check import check_points, check_uv, check_weights
-from .._kernels import bsplines as kernels
+from .._kernels.surface import bspline_basis as kernels
 from ..errors import InputError
 from ..solve.systems import direct
 from ..typing import Floats

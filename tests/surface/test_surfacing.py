@@ -12,9 +12,9 @@ from strategies import seeds
 
 from pointchart import InputError, SolveError, shapes
 from pointchart.boundary import chord_length_steps, on_square, sharpest_places
-from pointchart.fit import Deviation, closest_parameters, evaluate
 from pointchart.plane.exact_signs import is_simple
-from pointchart.surfacing import check_met, fit_scan, without_spikes
+from pointchart.surface import Deviation, closest_parameters, evaluate
+from pointchart.surface.surfacing import check_met, fit_scan, without_spikes
 
 FAIR = 1e-7  # given, so that there are no others to try
 WHOLE = {

@@ -9,7 +9,7 @@ from scipy.spatial import cKDTree
 from threadpoolctl import threadpool_limits
 
 from .._check import check_points, check_uv
-from .._kernels import radial as kernels
+from .._kernels.surface import radial_blend as kernels
 from .._parallel import over_ranges
 from ..errors import InputError, SolveError
 from ..mesh.planar_delaunay import coinciding

@@ -3,9 +3,9 @@
 import numpy as np
 from numba import njit
 
-from .mesh.drafts import first_around, next_around, swap_noted
-from .mesh.half_edges import following, preceding
-from .plane.crossings import turn
+from ..mesh.drafts import first_around, next_around, swap_noted
+from ..mesh.half_edges import following, preceding
+from ..plane.crossings import turn
 
 SPLITTER = 134217729.0  # 2^27 + 1
 

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 from .._check import check_points, check_uv
 from ..errors import InputError
 from ..typing import Floats
-from .surface import Surface, evaluate, normals
+from .derivatives import Surface, evaluate, normals
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -85,7 +85,7 @@ def measure_deviation(points: ArrayLike, surface: Surface, uv: ArrayLike) -> Dev
 
     Examples
     --------
-    >>> from pointchart.fit import BSplineSurface
+    >>> from pointchart.surface import BSplineSurface
     >>> corners = np.array([[[0.0, 0, 0], [0, 1, 0]], [[1, 0, 0], [1, 1, 0]]])
     >>> square = BSplineSurface(1, np.array([0.0, 0, 1, 1]), np.array([0.0, 0, 1, 1]), corners)
     >>> feet = np.array([[0.0, 0], [1, 0], [0, 1], [1, 1]])

@@ -7,7 +7,7 @@ import scipy.sparse as sp
 from numpy.typing import ArrayLike
 
 from .._check import check_points, check_triangles, check_uv
-from .._kernels import clough_tocher as kernels
+from .._kernels.surface import clough_tocher_element as kernels
 from .._parallel import over_ranges
 from ..errors import InputError, name_some
 from ..mesh.connectivity import HalfEdges, boundary_loops, half_edges

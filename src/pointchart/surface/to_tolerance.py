@@ -9,11 +9,11 @@ from .._check import check_points, check_uv, check_weights
 from ..errors import InputError
 from ..typing import UV, Floats, Indices, Mask, Points
 from .bspline import BSplineSurface
+from .derivatives import closest_parameters, evaluate
 from .deviation import Deviation
 from .knots import FIRST_SPANS, MARGIN, Knots, first_knots, halve, n_control
-from .least_squares import least_squares
 from .loss import Loss, squares
-from .surface import closest_parameters, evaluate
+from .normal_equations import least_squares
 
 CORRECTIONS = 8  # of the parameters, at most, before deviations are judged
 WORTH = 0.95  # of the RMS: a correction that brings less is the last

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .._check import check_uv
-from .._kernels import bsplines as kernels
+from .._kernels.surface import bspline_basis as kernels
 from .._parallel import over_ranges
 from ..errors import InputError
 from ..typing import UV, Floats, Points

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from strategies import rotations, seeds
 
 from pointchart.errors import InputError
-from pointchart.fit import BSplineSurface, Deviation, deviation_table, evaluate, measure_deviation, normals
+from pointchart.surface import BSplineSurface, Deviation, deviation_table, evaluate, measure_deviation, normals
 
 UNIT = np.array([0.0, 0, 1, 1])
 SQUARE = np.array([[[0.0, 0, 0], [0, 1, 0]], [[1, 0, 0], [1, 1, 0]]])

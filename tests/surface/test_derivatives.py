@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from strategies import rotations, seeds
 
-from pointchart.fit import BSplineSurface, closest_parameters, curvatures, evaluate, normals
+from pointchart.surface import BSplineSurface, closest_parameters, curvatures, evaluate, normals
 
 CUBIC = np.r_[[0.0] * 4, 0.25, 0.5, 0.5, [1.0] * 4]
 THIRDS = np.array([0, 1, 2, 3]) / 3

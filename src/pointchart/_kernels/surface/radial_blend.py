@@ -9,7 +9,7 @@ import math
 import numpy as np
 from numba import njit
 
-from .plane.locate import holds, next_box
+from ..plane.locate import holds, next_box
 
 
 @njit(cache=True, nogil=True)

@@ -9,9 +9,9 @@ from scipy.spatial import Delaunay
 from strategies import convex_discs, flat, planar_discs, rotations, seeds
 
 from pointchart import InputError, shapes
-from pointchart.fit import evaluate, interpolate_clough_tocher
 from pointchart.mesh.connectivity import half_edges
 from pointchart.mesh.planar_delaunay import triangulate
+from pointchart.surface import evaluate, interpolate_clough_tocher
 
 SQUARE = np.array([[0.0, 0], [1, 0], [1, 1], [0, 1]])
 HALVES = np.array([[0, 1, 2], [0, 2, 3]])

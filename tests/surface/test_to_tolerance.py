@@ -10,7 +10,7 @@ from scipy.spatial import cKDTree
 from strategies import rotations, seeds
 
 from pointchart import InputError, reconstruct, shapes, uv_free_boundary
-from pointchart.fit import (
+from pointchart.surface import (
     Deviation,
     closest_parameters,
     evaluate,

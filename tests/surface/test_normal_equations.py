@@ -10,8 +10,8 @@ from scipy.interpolate import BSpline
 from strategies import rotations, seeds
 
 from pointchart import InputError
-from pointchart.fit import BSplineSurface, evaluate, least_squares
-from pointchart.fit.least_squares import thin_plate
+from pointchart.surface import BSplineSurface, evaluate, least_squares
+from pointchart.surface.normal_equations import thin_plate
 
 degrees = st.integers(2, 5)
 

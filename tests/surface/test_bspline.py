@@ -10,8 +10,8 @@ from scipy.interpolate import BSpline
 from strategies import rotations, seeds
 
 from pointchart import InputError
-from pointchart._kernels.bsplines import find_span
-from pointchart.fit import BSplineSurface, evaluate
+from pointchart._kernels.surface.bspline_basis import find_span
+from pointchart.surface import BSplineSurface, evaluate
 
 degrees = st.integers(1, 5)
 

@@ -7,14 +7,14 @@ import scipy.sparse as sp
 from numpy.typing import ArrayLike
 from scipy.spatial import cKDTree
 
-from .._kernels.constrain import constrain
+from .._kernels.surface.constrain import constrain
 from ..errors import InputError
 from ..mesh.connectivity import start_draft
 from ..mesh.delaunay_swaps import swap_to_delaunay
 from ..mesh.planar_delaunay import coinciding, triangulate
 from ..plane.exact_signs import is_simple
 from ..typing import UV, Floats, Indices, Mask, Points, Triangles
-from .surface import Surface
+from .derivatives import Surface
 
 PROBES = 24  # in each direction, at which the stretch of the surface is measured
 CLEARANCE = 0.71  # in spacings: no point as far as this from the ends of a side is in the circle over the side
@@ -58,7 +58,7 @@ def tessellate(surface: Surface, loops: Sequence[ArrayLike], n: int) -> tuple[Po
 
     Examples
     --------
-    >>> from pointchart.fit import BSplineSurface
+    >>> from pointchart.surface import BSplineSurface
     >>> corners = np.array([[[0.0, 0, 0], [0, 1, 0]], [[1, 0, 0], [1, 1, 0]]])
     >>> square = BSplineSurface(1, np.array([0.0, 0, 1, 1]), np.array([0.0, 0, 1, 1]), corners)
     >>> points, triangles, uv = tessellate(square, [np.array([[0.0, 0], [1, 0], [1, 1], [0, 1]])], 1)
