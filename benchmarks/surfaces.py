@@ -26,9 +26,9 @@ from scipy.interpolate import SmoothBivariateSpline
 from scipy.spatial import cKDTree
 
 from pointchart import PointchartError, read_scan, reconstruct, shapes, uv_free_boundary
+from pointchart.cad import read_cad, write_cad
 from pointchart.surface import closest_parameters, fit_bspline, least_squares, measure_deviation
 from pointchart.surface.surfacing import fit_scan
-from pointchart.surface_io import read_cad, write_cad
 from pointchart.typing import UV, Floats, Points
 
 SCANS = ("fran", "face", "lidar", "mountain", "nefertiti", "bunny30571", "foot")

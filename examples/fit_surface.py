@@ -12,9 +12,9 @@ import numpy as np
 from matplotlib import pyplot as plt
 
 from pointchart import shapes
+from pointchart.cad import read_surface_json, write_surface_json
 from pointchart.surface import closest_parameters, curvatures
 from pointchart.surface.surfacing import fit_scan
-from pointchart.surface_io import read_surface_json, write_surface_json
 
 
 def draw(cap, points):

@@ -7,9 +7,9 @@ import pytest
 from matplotlib import image
 
 from pointchart import shapes
+from pointchart.cad import write_surface_json
 from pointchart.io import write_mesh
 from pointchart.surface import BSplineSurface, evaluate
-from pointchart.surface_io import write_surface_json
 
 CAP = shapes.hemisphere(400)
 UNIT = np.array([0.0, 0, 1, 1])

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from pointchart import certify, read_scan, shapes, write_loop, write_mesh
+from pointchart.cad import read_cad, read_surface_json
 from pointchart.surface import closest_parameters, evaluate
-from pointchart.surface_io import read_cad, read_surface_json
 
 NO_FACES = np.empty((0, 3), np.int64)
 CAP = shapes.hemisphere(500)

@@ -106,7 +106,7 @@ from .points.stars import (
     normals as normals,
     smooth as smooth,
 )
-from .surface_io import (
+from .cad import (
     read_cad as read_cad,
     read_surface_json as read_surface_json,
     write_cad as write_cad,

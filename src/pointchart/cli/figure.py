@@ -126,9 +126,9 @@ def _angles(text: str | None) -> tuple[float, float] | None:
 
 
 def _draw_surface(out: Path, source: Path, points: Path | None, limit: float | None, look: dict[str, Any]) -> None:
+    from ..cad import read_surface_json
     from ..figures import draw_deviation_map, draw_zebra
     from ..io import read_scan
-    from ..surface_io import read_surface_json
 
     surface, loops, unit = read_surface_json(source)
     if points is None:

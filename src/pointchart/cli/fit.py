@@ -104,6 +104,8 @@ def fit(
 ) -> None:
     """Fit a trimmed B-spline surface to a scan of one surface patch, to a tolerance, for CAD."""
     from .._parallel import on_threads
+    from ..cad import CAD_SUFFIXES
+    from ..cad.occ import check_extra
     from ..errors import points_called
     from ..io import MESH_SUFFIXES, check_output, replacing
     from ..page import PAGE_SUFFIXES, lay_out, writing_page
@@ -111,8 +113,6 @@ def fit(
     from ..report import boundary_lines, intersection_lines, run_report, writing_json
     from ..surface import huber, squares
     from ..surface.surfacing import fit_scan
-    from ..surface_io import CAD_SUFFIXES
-    from ..surface_io.occ import check_extra
     from ..surface_picture import draw_deviation, draw_reflections
     from ..surface_report import explain_lines, surface_lines, surface_report
     from .choices import GAPS, amount, corner_names, fairness_weight, layout_rule, outer_place
@@ -225,9 +225,9 @@ def _write_deviations(path: Path, surfaced: SurfacedScan, inputs: Inputs) -> Non
 
 
 def _write_surface(out: Path, surfaced: SurfacedScan, unit: Unit) -> None:
+    from ..cad import CAD_SUFFIXES, write_cad, write_surface_json
     from ..io import write_mesh
     from ..surface import tessellate
-    from ..surface_io import CAD_SUFFIXES, write_cad, write_surface_json
 
     surface, loops, suffix = surfaced.fit.surface, surfaced.loops, out.suffix.lower()
     if suffix in CAD_SUFFIXES:

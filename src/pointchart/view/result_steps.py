@@ -5,9 +5,9 @@ from pathlib import Path
 
 import numpy as np
 
+from ..cad import CAD_SUFFIXES, read_surface_json, write_cad
 from ..io import MESH_SUFFIXES, UV_SUFFIXES, Scan, read_scan, write_mesh, write_uv
 from ..surface import tessellate
-from ..surface_io import CAD_SUFFIXES, read_surface_json, write_cad
 from ..typing import UV
 from .controls import Controls
 from .page import Page

@@ -1,6 +1,6 @@
 """Read and write fitted surfaces and the loops that trim them: CAD files, and JSON that keeps every bit."""
 
-from .cad import CAD_SUFFIXES, read_cad, write_cad
+from .cad_files import CAD_SUFFIXES, read_cad, write_cad
 from .surface_json import read_surface_json, write_surface_json
 from .units import MILLIMETRES
 

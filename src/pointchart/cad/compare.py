@@ -10,11 +10,11 @@ from ..io.source import AnyPath
 from ..plane.polygons import signed_area
 from ..surface import BSplineSurface, evaluate
 from ..typing import UV
-from .checks import is_inside
-from .face import size_of
+from .make_face import size_of
 from .occ import occ
+from .read_face import SAMPLES, split
+from .surface_checks import is_inside
 from .trims import Edge
-from .unmake import SAMPLES, split
 
 DEVIATION = 1e-6  # of the size, and of the area of the domain
 _GRID = 32

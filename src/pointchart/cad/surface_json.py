@@ -11,7 +11,7 @@ from ..io import check_output, replacing
 from ..io.source import AnyPath, decode, read_bytes
 from ..surface import BSplineSurface
 from ..typing import UV, Floats
-from .checks import check_loops, check_surface
+from .surface_checks import check_loops, check_surface
 from .units import check_unit
 
 FORMAT, VERSION = "pointchart surface", 1

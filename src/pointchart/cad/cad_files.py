@@ -11,14 +11,14 @@ from ..io import check_output, replacing
 from ..io.source import AnyPath, check_readable
 from ..surface import BSplineSurface
 from ..typing import UV
-from .checks import check_loops, check_surface
 from .compare import check_written, is_valid
-from .face import make_face
+from .formats import read_brep, read_iges, read_step, write_brep, write_iges, write_step
+from .make_face import make_face
 from .occ import check_extra, failing_as, silence
-from .transfer import read_brep, read_iges, read_step, write_brep, write_iges, write_step
+from .read_face import only_face, split
+from .surface_checks import check_loops, check_surface
 from .trims import Edge, straight_edges, trim_edges
 from .units import MILLIMETRES, check_unit
-from .unmake import only_face, split
 
 _WRITERS = {".step": write_step, ".stp": write_step, ".iges": write_iges, ".igs": write_iges, ".brep": write_brep}
 _READERS = {".step": read_step, ".stp": read_step, ".iges": read_iges, ".igs": read_iges, ".brep": read_brep}

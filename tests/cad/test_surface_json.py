@@ -7,10 +7,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from pointchart.cad import MILLIMETRES, read_surface_json, write_surface_json
+from pointchart.cad.surface_checks import check_loops
 from pointchart.errors import FormatError, InputError
 from pointchart.surface import BSplineSurface
-from pointchart.surface_io import MILLIMETRES, read_surface_json, write_surface_json
-from pointchart.surface_io.checks import check_loops
 
 SQUARE = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
 HOLE = 0.25 + 0.5 * SQUARE[::-1]

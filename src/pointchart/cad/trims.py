@@ -14,7 +14,7 @@ from scipy.interpolate import BSpline, CubicSpline, make_interp_spline
 from ..errors import InputError, name_some
 from ..surface import BSplineSurface, evaluate
 from ..typing import UV, Floats, Indices, Mask, Points
-from .meetings import find_meetings
+from .chain_meetings import find_meetings
 
 CORNER = np.radians(40.0)  # a circle of 10 points or more has none
 PIECES = 8  # a side of a polygon is looked at in at least so many straight pieces

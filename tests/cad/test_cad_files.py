@@ -8,15 +8,15 @@ import numpy as np
 import pytest
 from scipy.spatial import KDTree
 
+from pointchart.cad import CAD_SUFFIXES, MILLIMETRES, compare, read_cad, write_cad
+from pointchart.cad.cad_files import read_face
+from pointchart.cad.make_face import make_surface
+from pointchart.cad.occ import silence
+from pointchart.cad.space_curves import lift
+from pointchart.cad.surface_checks import signed_area
+from pointchart.cad.trims import trim_edges
 from pointchart.errors import FormatError, InputError, SolveError
 from pointchart.surface import BSplineSurface, evaluate, normals
-from pointchart.surface_io import CAD_SUFFIXES, MILLIMETRES, compare, read_cad, write_cad
-from pointchart.surface_io.cad import read_face
-from pointchart.surface_io.checks import signed_area
-from pointchart.surface_io.face import make_surface
-from pointchart.surface_io.lift import lift
-from pointchart.surface_io.occ import silence
-from pointchart.surface_io.trims import trim_edges
 
 pytest.importorskip("OCP", reason="the extra cad is not installed")
 

@@ -8,8 +8,8 @@ from scipy.interpolate import BSpline
 
 from ..surface import BSplineSurface
 from ..typing import Floats
-from .lift import lift
 from .occ import array1, occ
+from .space_curves import lift
 from .trims import Edge
 
 CONFUSION = 1e-7  # millimetres: what Open CASCADE holds for one place
