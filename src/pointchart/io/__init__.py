@@ -2,9 +2,9 @@
 
 from .loop import read_loop, write_loop
 from .output import check_output, replacing
-from .read import READABLE_SUFFIXES, read_scan
+from .readers import READABLE_SUFFIXES, read_scan
 from .scan import Scan
-from .write import MESH_SUFFIXES, UV_SUFFIXES, check_digits, write_curves, write_mesh, write_uv
+from .writers import MESH_SUFFIXES, UV_SUFFIXES, check_digits, write_curves, write_mesh, write_uv
 
 __all__ = [
     "MESH_SUFFIXES",

@@ -5,7 +5,7 @@ before the format, reads a truncated or negative count without a word, and write
 properties that it does not know.
 """
 
-from .read import read_ply
-from .write import write_ply
+from .ply_reader import read_ply
+from .ply_writer import write_ply
 
 __all__ = ["read_ply", "write_ply"]

@@ -16,7 +16,7 @@ from ...errors import FormatError
 from ...typing import Floats, Indices
 from ..source import AnyPath
 from ..table import is_index, parse_rows
-from .header import Element, Property
+from .ply_header import Element, Property
 
 Group: TypeAlias = tuple[Indices, NDArray[Any]]
 _Signature: TypeAlias = tuple[int, ...]

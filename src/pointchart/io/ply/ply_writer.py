@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...typing import Attributes, Indices, Points, Triangles
-from .header import TYPES
+from .ply_header import TYPES
 
 _TYPE_NAMES = {code: name for name, code in TYPES.items()}
 _BLOCK = 1 << 17

@@ -9,8 +9,8 @@ from ...errors import FormatError
 from ...typing import Indices
 from ..scan import Scan, fan_triangles, scan_from_columns
 from ..source import AnyPath, decode, read_bytes, split_lines
-from .header import Element, Property, parse_header
-from .rows import Group, binary_groups, cut_off, text_groups
+from .ply_header import Element, Property, parse_header
+from .ply_rows import Group, binary_groups, cut_off, text_groups
 
 _CORNERS = ("vertex_indices", "vertex_index")
 
