@@ -31,7 +31,7 @@ from pointchart import (
     shapes,
 )
 from pointchart.gaps.rules import SECOND_BOUNDARY
-from pointchart.picture import draw_boundary
+from pointchart.look.run_pictures import draw_boundary
 from pointchart.shapes import Shape
 from pointchart.typing import Floats, Indices, Loop, Mask, Points, Triangles
 

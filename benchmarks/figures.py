@@ -25,12 +25,12 @@ from PIL import Image
 from rabbit import rabbit
 
 from pointchart.boundary import chord_length_steps, on_circle, order_by_halves
-from pointchart.camera import camera
+from pointchart.look.camera import camera
+from pointchart.look.run_pictures import ACCENT, INK, STONE, paint_loop, paint_triangles, paint_wires
 from pointchart.map.convex_combination import parameterize
 from pointchart.map.weights import reciprocal_distance
 from pointchart.mesh.delaunay_swaps import swap_to_delaunay
 from pointchart.mesh.planar_delaunay import triangulate
-from pointchart.picture import ACCENT, INK, STONE, paint_loop, paint_triangles, paint_wires
 from pointchart.points.neighbors import Neighborhoods, ball
 from pointchart.points.stars import delaunay_star
 from pointchart.shapes import Shape, add_noise, disc

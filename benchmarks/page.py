@@ -12,7 +12,7 @@ from playwright.sync_api import sync_playwright
 import pointchart as pc
 from pointchart import shapes
 from pointchart.clock import StageClock
-from pointchart.page import lay_out
+from pointchart.look.page import lay_out
 from pointchart.report import run_report
 
 DRAWING_IN_SOFTWARE = [

@@ -15,8 +15,8 @@ import pointchart as pc
 from pointchart import shapes
 from pointchart.agreement.agreed_surface import agreed_patchwork
 from pointchart.boundary.bounded import survey_scan
+from pointchart.look.run_pictures import ACCENT, FAINT, INK, PAPER
 from pointchart.mesh.assembly import assemble as assembled
-from pointchart.picture import ACCENT, FAINT, INK, PAPER
 
 STEEL = "#3a8fb7"
 SCALE = mpl.colors.LinearSegmentedColormap.from_list("score", [FAINT, STEEL, INK])

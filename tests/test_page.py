@@ -10,14 +10,14 @@ from PIL import Image
 
 import pointchart as pc
 from pointchart import shapes
-from pointchart.camera import camera
 from pointchart.clock import StageClock
+from pointchart.look.camera import camera
+from pointchart.look.page import lay_out
+from pointchart.look.page.colorings import Shade, mesh_shades
+from pointchart.look.page.histograms import quality_histograms
+from pointchart.look.page.pack import packed, quantized, steps
+from pointchart.look.page.thinned import thin
 from pointchart.mesh.connectivity import boundary_loops, fans, half_edges
-from pointchart.page import lay_out
-from pointchart.page.histograms import quality_histograms
-from pointchart.page.pack import packed, quantized, steps
-from pointchart.page.shades import Shade, mesh_shades
-from pointchart.page.thin import thin
 from pointchart.report import run_report
 
 ACCENT = np.array([0xC8, 0x55, 0x3D])

@@ -2,7 +2,7 @@
 
 import matplotlib as mpl
 
-from pointchart.picture import INK, PAPER
+from pointchart.look.run_pictures import INK, PAPER
 
 
 def on_paper(conf: object, name: str) -> None:

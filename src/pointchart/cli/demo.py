@@ -24,8 +24,8 @@ def demo(
     from .. import shapes
     from ..errors import FormatError
     from ..io import check_output, replacing, write_mesh
-    from ..page import lay_out, writing_page
-    from ..picture import draw_run
+    from ..look.page import lay_out, writing_page
+    from ..look.run_pictures import draw_run
     from ..pipeline import reconstruct
     from ..report import certificate_lines, run_report, summary
     from .output import command_line, given_options

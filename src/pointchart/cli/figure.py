@@ -78,8 +78,8 @@ def figure(
     quiet: given.QuietOption = False,
 ) -> None:
     """Draw a figure for a paper: a cloud, a parameter plane, a mesh, a deviation map or lines of light (zebra)."""
-    from ..figures import PICTURE_SUFFIXES, Sheet
     from ..io import check_output
+    from ..look.figures import PICTURE_SUFFIXES, Sheet
 
     _check_options(
         kind,
@@ -127,8 +127,8 @@ def _angles(text: str | None) -> tuple[float, float] | None:
 
 def _draw_surface(out: Path, source: Path, points: Path | None, limit: float | None, look: dict[str, Any]) -> None:
     from ..cad import read_surface_json
-    from ..figures import draw_deviation_map, draw_zebra
     from ..io import read_scan
+    from ..look.figures import draw_deviation_map, draw_zebra
 
     surface, loops, unit = read_surface_json(source)
     if points is None:
@@ -139,8 +139,8 @@ def _draw_surface(out: Path, source: Path, points: Path | None, limit: float | N
 
 def _draw_scan(kind: Figure, out: Path, source: Path, color: str | None, look: dict[str, Any]) -> None:
     from ..errors import InputError
-    from ..figures import draw_cloud, draw_mesh, draw_plane
     from ..io import read_scan
+    from ..look.figures import draw_cloud, draw_mesh, draw_plane
     from .inputs import uv_of
 
     read = read_scan(source)

@@ -108,12 +108,12 @@ def fit(
     from ..cad.occ import check_extra
     from ..errors import points_called
     from ..io import MESH_SUFFIXES, check_output, replacing
-    from ..page import PAGE_SUFFIXES, lay_out, writing_page
-    from ..picture import PICTURE_SUFFIXES
+    from ..look.page import PAGE_SUFFIXES, lay_out, writing_page
+    from ..look.run_pictures import PICTURE_SUFFIXES
+    from ..look.surface_pictures import draw_deviation, draw_reflections
     from ..report import boundary_lines, intersection_lines, run_report, writing_json
     from ..surface import huber, squares
     from ..surface.surfacing import fit_scan
-    from ..surface_picture import draw_deviation, draw_reflections
     from ..surface_report import explain_lines, surface_lines, surface_report
     from .choices import GAPS, amount, corner_names, fairness_weight, layout_rule, outer_place
     from .inputs import read_inputs

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from ..errors import InputError
 from ..io import Scan, check_output, read_loop, read_scan
-from ..page import PAGE_SUFFIXES
+from ..look.page import PAGE_SUFFIXES
 from ..points.parts import largest_component
 from ..typing import UV, Indices, Loop, Points
 from .words import Component

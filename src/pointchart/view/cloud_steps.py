@@ -6,8 +6,8 @@ from typing import Any
 import numpy as np
 import viser
 
-from ..camera import AXES
 from ..errors import InputError
+from ..look.camera import AXES
 from .around import around_point
 from .controls import CHOSEN, Controls
 from .page import Page

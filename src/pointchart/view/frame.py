@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ..camera import camera, upright_axes, upward
+from ..look.camera import camera, upright_axes, upward
 from ..points.neighbors import Neighborhoods
 from ..typing import Floats, Indices, Points, Triangles
 

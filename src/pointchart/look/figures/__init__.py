@@ -1,6 +1,6 @@
 """Figures for papers: one picture without a title, as wide as a column, as PNG, SVG or PDF."""
 
-from ..picture import PICTURE_SUFFIXES
+from ..run_pictures import PICTURE_SUFFIXES
 from .clouds import draw_cloud
 from .meshes import draw_mesh, draw_plane
 from .sheet import Sheet

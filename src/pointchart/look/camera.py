@@ -2,11 +2,11 @@
 
 import numpy as np
 
-from .errors import InputError
-from .mesh.connectivity import half_edges
-from .mesh.quality import area_vectors
-from .picture import rotation
-from .typing import Floats, Points, Triangles
+from ..errors import InputError
+from ..mesh.connectivity import half_edges
+from ..mesh.quality import area_vectors
+from ..typing import Floats, Points, Triangles
+from .run_pictures import rotation
 
 AXES = {"x": 0, "y": 1, "z": 2}
 OBLIQUE = rotation(-10.0, 25.0)  # out of the view along the mean normal

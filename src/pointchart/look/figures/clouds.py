@@ -5,12 +5,12 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .._check import check_points
+from ..._check import check_points
+from ...errors import InputError
+from ...io.source import AnyPath
+from ...typing import Floats, Points
 from ..camera import camera
-from ..errors import InputError
-from ..io.source import AnyPath
-from ..picture import INK, MOST_SHAPES, save
-from ..typing import Floats, Points
+from ..run_pictures import INK, MOST_SHAPES, save
 from .sheet import COLUMN, Sheet, check_sheet, lay_out, sequential, show_scale
 
 FARTHEST = np.array([0.73, 0.77, 0.78])

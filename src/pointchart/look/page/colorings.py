@@ -4,9 +4,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..boundary.bounded import survey_scan
-from ..mesh.quality import area_vectors, vertex_stretches
-from ..typing import UV, Floats, Loop, Points, Triangles
+from ...boundary.bounded import survey_scan
+from ...mesh.quality import area_vectors, vertex_stretches
+from ...typing import UV, Floats, Loop, Points, Triangles
 
 SAME = 1e-9
 OUTERMOST = 2.0  # per cent of the points at either end, which colours do not tell apart

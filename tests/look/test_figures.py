@@ -10,11 +10,12 @@ import pytest
 from matplotlib import colors, image
 from matplotlib import pyplot as plt
 
-from pointchart import FormatError, InputError, scene, shapes
-from pointchart.camera import camera, upright_axes, upward
-from pointchart.figures import Sheet, draw_cloud, draw_deviation_map, draw_mesh, draw_plane, draw_zebra
-from pointchart.figures import surfaces as of_surfaces
-from pointchart.picture import ACCENT, INK
+from pointchart import FormatError, InputError, shapes
+from pointchart.look import raster as scene
+from pointchart.look.camera import camera, upright_axes, upward
+from pointchart.look.figures import Sheet, draw_cloud, draw_deviation_map, draw_mesh, draw_plane, draw_zebra
+from pointchart.look.figures import surfaces as of_surfaces
+from pointchart.look.run_pictures import ACCENT, INK
 from pointchart.surface import BSplineSurface, evaluate
 
 DISC = shapes.disc(400, seed=1)
@@ -49,7 +50,7 @@ def coarse():
     with pytest.MonkeyPatch.context() as patch:
         for module in (scene, of_surfaces):
             patch.setattr(module, "GRID", 300)
-        patch.setattr("pointchart.figures.sheet.MOST_PIXELS", 60_000)
+        patch.setattr("pointchart.look.figures.sheet.MOST_PIXELS", 60_000)
         yield
     assert plt.get_fignums() == []
 
@@ -129,7 +130,7 @@ def test_lines_stay_lines_up_to_a_number_and_become_one_image_beyond(tmp_path, m
     plane = tmp_path / "a.svg"
     draw_plane(plane, DISC.uv, DISC.triangles)
     assert b"<image" not in plane.read_bytes()
-    monkeypatch.setattr("pointchart.picture.MOST_SHAPES", 100)
+    monkeypatch.setattr("pointchart.look.run_pictures.MOST_SHAPES", 100)
     draw_plane(plane, DISC.uv, DISC.triangles)
     assert plane.read_bytes().count(b"<image") == 1
 

@@ -15,16 +15,16 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ...io import replacing
+from ...mesh.connectivity import boundary_loops, half_edges
+from ...pipeline import Reconstruction
+from ...report import certificate_lines
+from ...typing import Floats, Indices, Points
 from ..camera import camera, upright_axes, upward
-from ..io import replacing
-from ..mesh.connectivity import boundary_loops, half_edges
-from ..pipeline import Reconstruction
-from ..report import certificate_lines
-from ..typing import Floats, Indices, Points
+from .colorings import Shade, mesh_shades
 from .histograms import quality_histograms
 from .pack import packed, quantized, steps
-from .shades import Shade, mesh_shades
-from .thin import thin
+from .thinned import thin
 
 MOST_POINTS = 200_000  # drawn: what a phone turns smoothly, and some 10 MB
 PAGE_SUFFIXES = (".html", ".htm")

@@ -6,12 +6,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .._check import check_points, check_triangles, check_uv
+from ..._check import check_points, check_triangles, check_uv
+from ...errors import InputError
+from ...io.source import AnyPath
+from ...mesh.connectivity import boundary_loops, half_edges
+from ...typing import UV, Floats, Points, Triangles
 from ..camera import camera
-from ..errors import InputError
-from ..io.source import AnyPath
-from ..mesh.connectivity import boundary_loops, half_edges
-from ..picture import (
+from ..raster import rasterize, spread
+from ..run_pictures import (
     MOST_SHAPES,
     STONE,
     paint_image,
@@ -22,8 +24,6 @@ from ..picture import (
     shaded,
     unit_normals,
 )
-from ..scene import rasterize, spread
-from ..typing import UV, Floats, Points, Triangles
 from .clouds import check_values
 from .sheet import COLUMN, Panel, Sheet, check_sheet, image_pixels, lay_out, sequential, show_scale
 

@@ -5,11 +5,11 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import InputError
-from ..io import check_output
-from ..io.source import AnyPath
-from ..picture import FAINT, PICTURE_SUFFIXES, SEQUENTIAL, STONE, number, style_bar
-from ..typing import Floats
+from ...errors import InputError
+from ...io import check_output
+from ...io.source import AnyPath
+from ...typing import Floats
+from ..run_pictures import FAINT, PICTURE_SUFFIXES, SEQUENTIAL, STONE, number, style_bar
 
 MILLIMETRE = 1.0 / 25.4  # in inches
 MARGIN, BAR_ROOM, MOST_HEIGHT = 1.0, 11.0, 240.0  # in millimetres

@@ -7,11 +7,11 @@ from typing import Self, TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..mesh.quality import area_vectors
+from ..surface import Surface
+from ..surface.tessellation import tessellate
+from ..typing import UV, Floats, Indices, Mask, Points, Triangles
 from .camera import OBLIQUE
-from .mesh.quality import area_vectors
-from .surface import Surface
-from .surface.tessellation import tessellate
-from .typing import UV, Floats, Indices, Mask, Points, Triangles
 
 Box: TypeAlias = tuple[float, float, float, float]
 

@@ -4,8 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..points.morton import morton_order
-from ..typing import Indices, Loop, Points, Triangles
+from ...points.morton import morton_order
+from ...typing import Indices, Loop, Points, Triangles
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -6,9 +6,9 @@ from typing import Any
 
 import numpy as np
 
-from .io import check_output, replacing
-from .mesh.quality import area_vectors
-from .typing import UV, Floats, Loop, Points, Triangles
+from ..io import check_output, replacing
+from ..mesh.quality import area_vectors
+from ..typing import UV, Floats, Loop, Points, Triangles
 
 PAPER, FAINT, INK, ACCENT = "#fbfaf7", "#ccd6d8", "#22303c", "#c8553d"
 STONE, INSIDE = np.array([0.83, 0.77, 0.68]), np.array([0.78, 0.49, 0.40])

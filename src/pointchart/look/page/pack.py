@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..typing import Floats
+from ...typing import Floats
 
 LEVELS = 65535
 

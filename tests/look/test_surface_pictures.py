@@ -9,11 +9,12 @@ from matplotlib import colors, image
 from matplotlib import pyplot as plt
 from strategies import rotations
 
-from pointchart import FormatError, InputError, scene
-from pointchart.picture import INK, PAPER
-from pointchart.scene import reflection_angles
+from pointchart import FormatError, InputError
+from pointchart.look import raster as scene
+from pointchart.look.raster import reflection_angles
+from pointchart.look.run_pictures import INK, PAPER
+from pointchart.look.surface_pictures import draw_deviation, draw_reflections
 from pointchart.surface import BSplineSurface, Deviation, evaluate, normals
-from pointchart.surface_picture import draw_deviation, draw_reflections
 
 SIZE = (814, 1650)
 UNIT = np.array([0.0, 0, 1, 1])

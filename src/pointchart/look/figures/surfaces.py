@@ -8,15 +8,15 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.spatial import cKDTree
 
-from .._check import check_points
+from ..._check import check_points
+from ...errors import InputError
+from ...io.source import AnyPath
+from ...surface import Surface, closest_parameters, measure_deviation, tessellate
+from ...typing import UV, Floats, Points, Triangles
 from ..camera import camera
-from ..errors import InputError
-from ..io.source import AnyPath
-from ..picture import save
-from ..scene import GRID, Scene, look_at_mesh
-from ..surface import Surface, closest_parameters, measure_deviation, tessellate
-from ..surface_picture import diverging, paint_deviation, paint_lines
-from ..typing import UV, Floats, Points, Triangles
+from ..raster import GRID, Scene, look_at_mesh
+from ..run_pictures import save
+from ..surface_pictures import diverging, paint_deviation, paint_lines
 from .sheet import COLUMN, Panel, Sheet, check_sheet, image_pixels, lay_out, round_up, show_scale
 
 Mesh: TypeAlias = tuple[Points, Triangles, UV]

@@ -4,9 +4,9 @@ from typing import Any
 
 import numpy as np
 
-from ..mesh.connectivity import half_edges
-from ..mesh.quality import conformal_distortions, edge_lengths, radius_ratios, smallest_angles
-from ..typing import UV, Floats, Points, Triangles
+from ...mesh.connectivity import half_edges
+from ...mesh.quality import conformal_distortions, edge_lengths, radius_ratios, smallest_angles
+from ...typing import UV, Floats, Points, Triangles
 
 BINS = 40
 BEYOND = 99.5  # per cent of the values that a histogram without an end shows; the others are in its last bar

@@ -8,13 +8,13 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.spatial import cKDTree
 
-from .errors import InputError
-from .io import check_output
-from .picture import ACCENT, FAINT, INK, PAPER, PICTURE_SUFFIXES, STONE, lit, number, paint_image, save, style_bar
-from .scene import Scene, least_turning, look_at, reflection_angles
-from .surface import Surface, curvatures, evaluate, normals
-from .surface.deviation import Deviation, deviation_table
-from .typing import Floats, Points
+from ..errors import InputError
+from ..io import check_output
+from ..surface import Surface, curvatures, evaluate, normals
+from ..surface.deviation import Deviation, deviation_table
+from ..typing import Floats, Points
+from .raster import Scene, least_turning, look_at, reflection_angles
+from .run_pictures import ACCENT, FAINT, INK, PAPER, PICTURE_SUFFIXES, STONE, lit, number, paint_image, save, style_bar
 
 BELOW_AND_ABOVE = ["#12344f", "#2a6f97", "#8fbcd4", "#f4efe4", "#eba98f", ACCENT, "#7a2416"]
 FLAT = 1e-6  # curvature of a surface of area 1 that is taken for rounding
