@@ -14,9 +14,9 @@ from PIL import Image
 from playwright.sync_api import sync_playwright
 
 from pointchart import read_scan, shapes, write_mesh
+from pointchart.app.browser_app import open_page
+from pointchart.app.job import PROGRAM
 from pointchart.cli.view import commands
-from pointchart.view.app import open_page
-from pointchart.view.job import PROGRAM
 
 # Drawn in software, so that every machine gives the same picture.
 DRAWN = ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist"]

@@ -19,20 +19,21 @@ from websockets.sync.client import connect
 
 import pointchart as pc
 from pointchart import InputError, PointchartError, read_scan, shapes
+from pointchart.app import boundary_step, cloud_steps, guard, job, result_steps
+from pointchart.app import frame_rate as pace
+from pointchart.app.boundary_step import DROP, INSERT, OUTER
+from pointchart.app.browser_app import open_page
+from pointchart.app.cloud_steps import SHOW
+from pointchart.app.html import OTHERWISE, dimmed_html, refused_html
+from pointchart.app.job import Cancelled, Job
+from pointchart.app.loop_by_hand import LoopByHand
+from pointchart.app.one_neighborhood import Around
+from pointchart.app.picking import Camera, inside_polygon, project
+from pointchart.app.step import Step
 from pointchart.boundary import is_same_loop, reversed_loop
 from pointchart.cli import aside
 from pointchart.cli.view import commands
 from pointchart.io import read_loop, write_loop
-from pointchart.view import boundary_step, cloud_steps, guard, job, pace, result_steps
-from pointchart.view.app import open_page
-from pointchart.view.around import Around
-from pointchart.view.boundary_step import DROP, INSERT, OUTER
-from pointchart.view.cloud_steps import SHOW
-from pointchart.view.job import Cancelled, Job
-from pointchart.view.loop_by_hand import LoopByHand
-from pointchart.view.picking import Camera, inside_polygon, project
-from pointchart.view.step import Step
-from pointchart.view.words import OTHERWISE, dimmed_html, refused_html
 
 N = 200
 RELIEF = shapes.relief(N, seed=2)
@@ -134,7 +135,7 @@ def token_of(page):
 
 def run_as(monkeypatch, program):
     """Have pages run another program than pointchart."""
-    monkeypatch.setattr("pointchart.view.runner.Job", partial(Job, program=program))
+    monkeypatch.setattr("pointchart.app.runner.Job", partial(Job, program=program))
 
 
 def mesh_step(page):
@@ -762,7 +763,7 @@ def test_a_page_interrupted_while_it_is_built_leaves_no_folder_and_no_server(sca
         raise KeyboardInterrupt
 
     told = []
-    monkeypatch.setattr(f"pointchart.view.{fails}", interrupt)
+    monkeypatch.setattr(f"pointchart.app.{fails}", interrupt)
     with pytest.raises(KeyboardInterrupt):
         open_page(scan_file, read_scan(scan_file), commands(), tell_close=told.append)
     page = told[0].__self__

@@ -6,13 +6,13 @@ from hypothesis.extra.numpy import arrays
 from matplotlib.path import Path
 
 from pointchart import InputError, ball, delaunay_star, mean_value, nearest, reciprocal_distance, shapes
+from pointchart.app.frame import Frame, coarser, shades, spacing, stance, thinned
+from pointchart.app.frame_rate import TRIALS, Pace
+from pointchart.app.loop_by_hand import LoopByHand, dropped, inserted, nearest_of
+from pointchart.app.one_neighborhood import around_point
+from pointchart.app.picking import Camera, inside_polygon, nearest_to_ray, project, unproject, visible
+from pointchart.app.window_fit import DISTANCE, Whole, whole_distance
 from pointchart.boundary import is_same_loop, perimeter, reversed_loop
-from pointchart.view.around import around_point
-from pointchart.view.frame import Frame, coarser, shades, spacing, stance, thinned
-from pointchart.view.loop_by_hand import LoopByHand, dropped, inserted, nearest_of
-from pointchart.view.pace import TRIALS, Pace
-from pointchart.view.picking import Camera, inside_polygon, nearest_to_ray, project, unproject, visible
-from pointchart.view.whole import DISTANCE, Whole, whole_distance
 
 RELIEF = shapes.relief(400, seed=2)
 CAMERA = Camera(np.array([0.2, -0.1, 4.0]), np.diag([1.0, -1.0, -1.0]), fov=0.8, aspect=1.5)

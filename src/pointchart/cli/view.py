@@ -13,9 +13,9 @@ import typer
 from . import options as given
 
 if TYPE_CHECKING:
+    from ..app.command import Commands, Option
+    from ..app.one_neighborhood import Connect
     from ..map.weights import WeightScheme
-    from ..view.around import Connect
-    from ..view.command import Commands, Option
 
 
 def view(
@@ -40,7 +40,7 @@ def view(
     check_points(read.points)
     loop = None if boundary is None else check_loop(read_loop(boundary), len(read.points))
 
-    from ..view.app import open_page
+    from ..app.browser_app import open_page
 
     page = open_page(scan, read, commands(), loop=loop, tell_close=at_interrupt.append)
     print(f"{page.address}\nthe page of {scan}; Ctrl-C ends it", file=sys.stderr, flush=True)
@@ -53,7 +53,7 @@ def view(
 
 def commands() -> Commands:
     """Return what the page knows of the command line: the options of the commands that it runs."""
-    from ..view.command import Commands
+    from ..app.command import Commands
     from . import boundary, fit, mesh, param
 
     run: dict[str, Callable[..., None]] = {
@@ -76,7 +76,7 @@ def _is_option(hint: Any) -> bool:
 
 
 def _option(hint: Any, default: Any) -> Option:
-    from ..view.command import Option
+    from ..app.command import Option
 
     info, kinds = hint.__metadata__[0], get_args(hint.__origin__) or (hint.__origin__,)
     words = tuple(str(word) for kind in kinds if issubclass(kind, StrEnum) for word in kind)

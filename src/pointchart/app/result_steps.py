@@ -10,9 +10,9 @@ from ..io import MESH_SUFFIXES, UV_SUFFIXES, Scan, read_scan, write_mesh, write_
 from ..surface import tessellate
 from ..typing import UV
 from .controls import Controls
-from .page import Page
+from .html import said_html
+from .session import Page
 from .step import Step, add_export
-from .words import said_html
 
 UV_FILE, MESH_FILE, SURFACE_FILE = "uv-found.ply", "mesh-made.ply", "surface-fitted.json"
 SURFACE_SUFFIXES = (*CAD_SUFFIXES, ".json", *MESH_SUFFIXES)

@@ -13,11 +13,11 @@ from ..look.run_pictures import STONE
 from ..points.neighbors import nearest
 from ..points.stars import normals
 from ..typing import UV, Floats, Indices, Loop, Points, Triangles
-from .around import Around
 from .frame import Frame, coarser, shades, spacing, stance, thinned
-from .pace import Pace
+from .frame_rate import Pace
+from .one_neighborhood import Around
 from .picking import Camera, nearest_to_ray
-from .whole import DISTANCE, SAME, Whole, whole_distance
+from .window_fit import DISTANCE, SAME, Whole, whole_distance
 
 MOST_POINTS, MOST_TRIANGLES = 300_000, 400_000
 MOST_EDGED = 100_000  # triangles; the edges of more make one dark plane

@@ -8,8 +8,8 @@ import viser
 
 from ..errors import InputError
 from .controls import Controls
-from .page import Made, Page
-from .words import OTHERWISE, command_html, dimmed_html, outdated_html, refused_html, said_html, shortened
+from .html import OTHERWISE, command_html, dimmed_html, outdated_html, refused_html, said_html, shortened
+from .session import Made, Page
 
 
 class Step:

@@ -13,11 +13,11 @@ from ..errors import InputError, PointchartError
 from ..gaps.rules import place_of
 from ..io import read_loop, read_scan, write_loop
 from ..typing import UV, Floats, Indices
+from .html import said_html
 from .loop_by_hand import LoopByHand, dropped, inserted, nearest_of
-from .page import CLOUDS, Page
 from .picking import Camera, inside_polygon, project, unproject, visible
+from .session import CLOUDS, Page
 from .step import Step
-from .words import said_html
 
 FOUND, LOOPS, LOADED = "loop-found.txt", "loops.ply", "loaded.txt"
 BOUNDARY_SCORE = 0.5

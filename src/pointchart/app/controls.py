@@ -6,7 +6,7 @@ from typing import Any
 from viser import GuiApi
 
 from .command import Option, given_words
-from .page import Page
+from .session import Page
 
 CHOSEN = "(default)"
 

@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 from ..map.weights import WeightScheme
-from .around import Connect
+from .one_neighborhood import Connect
 
 Rules = Callable[[str, str, str, str], tuple[Connect, WeightScheme]]
 

@@ -10,8 +10,8 @@ from ..typing import Loop
 from .boundary_step import BoundaryStep
 from .cloud_steps import SHOW, NeighbourhoodStep, add_cloud
 from .command import Commands
-from .page import Page, Told
 from .result_steps import MeshStep, SurfaceStep, UVStep
+from .session import Page, Told
 
 Click = Callable[[int, viser.SceneClickEvent], object]
 

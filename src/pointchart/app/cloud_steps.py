@@ -8,10 +8,10 @@ import viser
 
 from ..errors import InputError
 from ..look.camera import AXES
-from .around import around_point
 from .controls import CHOSEN, Controls
-from .page import Page
-from .words import command_html, refused_html, said_html
+from .html import command_html, refused_html, said_html
+from .one_neighborhood import around_point
+from .session import Page
 
 SHOW = "shows its neighbourhood"
 NEAREST = 20
