@@ -141,8 +141,7 @@ def run_report(
     dict
     """
     points = scan[rows[result.rows]]
-    meshed = result.evidence.meshed
-    chart = result.evidence.chart
+    evidence = result.evidence
     return {
         "points": {
             "read": len(scan),
@@ -162,14 +161,14 @@ def run_report(
             "doubts": [_bridge(bridge) for bridge in result.evidence.bridges if not bridge.is_gap],
             "tried_before": [str(failure.renumbered(rows)) for failure in result.evidence.failures],
         },
-        "solve": solve_report((meshed.first_map or chart).solution),
-        "solve_uv": solve_report(chart.solution),
+        "solve": solve_report(evidence.first_solve or evidence.solve),
+        "solve_uv": solve_report(evidence.solve),
         "swaps": {
-            "count": meshed.swapped.n_swaps,
-            "settled": meshed.swapped.is_settled,
-            "closed_pockets": meshed.n_pockets,
-            "recovered_links": meshed.n_recovered,
-            "relocated_points": meshed.n_relocated,
+            "count": evidence.counts.n_swaps,
+            "settled": evidence.counts.is_settled,
+            "closed_pockets": evidence.counts.n_pockets,
+            "recovered_links": evidence.counts.n_recovered,
+            "relocated_points": evidence.counts.n_relocated,
         },
         "certificate": certificate_report(result.certificate),
         "quality": quality_report(points, result.triangles, result.uv),

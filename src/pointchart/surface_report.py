@@ -5,15 +5,10 @@ from typing import Any
 
 import numpy as np
 
-from .chart.on_mesh import ChartRule, uv_free_boundary, uv_low_stretch
 from .surface import Level, deviation_table
 from .surface.surfacing import SurfacedScan
 from .typing import Points
 
-CHARTS: dict[ChartRule, str] = {
-    uv_free_boundary: "with a free boundary, in the unit of the scan",
-    uv_low_stretch: "of low stretch on a convex domain",
-}
 FIGURES = ("max", "max_but_outliers", "percentile_95", "rms", "mean", "share_within_tolerance")
 
 
@@ -40,7 +35,7 @@ def explain_lines(surfaced: SurfacedScan) -> list[str]:
     if fit.is_noise:
         ended = "finer knots bring points left out of the fit no nearer: they would follow noise"
     return [
-        f"parameters {CHARTS[surfaced.chart]}: a domain of {extent}",
+        f"parameters {surfaced.chart.name}: a domain of {extent}",
         "level by level, knots halved where points are out of tolerance; fairness by points left out of the fit:",
         *(_level(number, level) for number, level in enumerate(fit.levels, start=1)),
         f"ended because {ended}",

@@ -56,7 +56,7 @@ def boundary(
     inputs = read_inputs(scan, None, None, out=out, suffixes=(".txt",), component=component)
     with staged(quiet) as clock, points_called(inputs.rows):
         survey = survey_scan(inputs.points, outer=place, clock=clock)
-    rows, scores = inputs.rows[survey.cloud.rows], survey.scores
+    rows, scores = inputs.rows[survey.cloud.rows], survey.score()
     loops = [rows[candidate.loop] for candidate in survey.candidates]
     notes = []
     with ExitStack() as stack:
