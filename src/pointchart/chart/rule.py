@@ -41,9 +41,9 @@ class Chart:
     name: str = "of a rule of your own"
 
     def __post_init__(self) -> None:
-        # A rule that decorates a function is documented as the function.
-        for attribute, value in (("__doc__", self.map.__doc__), ("__wrapped__", self.map)):
-            object.__setattr__(self, attribute, value)
+        # A rule that decorates a function is called and documented as the function.
+        name = getattr(self.map, "__name__", type(self).__name__)
+        vars(self).update(__doc__=self.map.__doc__, __name__=name, __wrapped__=self.map)
 
     def __call__(
         self, points: Points, loop: Loop, boundary_uv: UV, meshed: Meshed, solver: Solver | None

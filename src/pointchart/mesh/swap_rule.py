@@ -57,9 +57,9 @@ class Swaps:
     is_delaunay: bool = False
 
     def __post_init__(self) -> None:
-        # A rule that decorates a function is documented as the function.
-        for attribute, value in (("__doc__", self.swap.__doc__), ("__wrapped__", self.swap)):
-            object.__setattr__(self, attribute, value)
+        # A rule that decorates a function is called and documented as the function.
+        name = getattr(self.swap, "__name__", type(self).__name__)
+        vars(self).update(__doc__=self.swap.__doc__, __name__=name, __wrapped__=self.swap)
 
     def __call__(self, points: ArrayLike, triangles: Triangles) -> Swapped:
         """Swap edges of a mesh."""
