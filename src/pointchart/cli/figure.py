@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from . import options as given
-from .words import Axis, Figure
+from ..runs.option_values import Axis, Figure
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -12,7 +12,7 @@ import typer
 
 from . import options as given
 from .progress import staged
-from .words import Domain, Holes, Spacing, SurfaceDomain, Unit
+from ..runs.option_values import Domain, Holes, Spacing, SurfaceDomain, Unit
 
 if TYPE_CHECKING:
     from ..surface.surfacing import SurfacedScan

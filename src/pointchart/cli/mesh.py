@@ -10,7 +10,7 @@ import typer
 
 from . import options as given
 from .progress import staged
-from .words import Chart, Domain, Spacing, Swap
+from ..runs.option_values import Chart, Domain, Spacing, Swap
 
 if TYPE_CHECKING:
     from ..typing import Indices

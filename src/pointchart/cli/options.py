@@ -5,7 +5,7 @@ from typing import Annotated
 
 import typer
 
-from .words import Component, Domain, Holes, Neighbors, Spacing, Weighting
+from ..runs.option_values import Component, Domain, Holes, Neighbors, Spacing, Weighting
 
 ScanArgument = Annotated[
     Path,

@@ -8,7 +8,7 @@ import typer
 
 from . import options as given
 from .progress import staged
-from .words import Domain, Spacing
+from ..runs.option_values import Domain, Spacing
 
 
 def param(

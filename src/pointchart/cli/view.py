@@ -91,7 +91,7 @@ def _rules(neighbors: str, k: str, radius: str, weights: str) -> tuple[Connect, 
     from ..errors import InputError
     from ..map.weights import mean_value
     from .choices import connect_rule, weights_rule
-    from .words import Neighbors, Weighting
+    from ..runs.option_values import Neighbors, Weighting
 
     kind = Neighbors(neighbors) if neighbors else None
     try:
