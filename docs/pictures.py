@@ -118,7 +118,7 @@ def boundary():
     agreed = agreed_patchwork(near.smoothed, near.star, near.spacing).triangles
     figure, (left, middle, right) = panels(3, "triangles on which stars agree", "scores", "loops", width=11.0)
     wires(left, cloud, agreed, width=0.35)
-    middle.scatter(*cloud[:, :2].T, s=6, c=survey.scores.total, cmap=SCALE, vmin=0, vmax=1)
+    middle.scatter(*cloud[:, :2].T, s=6, c=survey.score().total, cmap=SCALE, vmin=0, vmax=1)
     right.scatter(*cloud[:, :2].T, s=2, c=FAINT)
     for number, candidate in enumerate(survey.candidates):
         ring(right, cloud[candidate.loop], color=INK if number else ACCENT, width=1.2 if number else 2.0)
@@ -149,8 +149,9 @@ def assemble():
         shapes.add_noise(shapes.pierce(shapes.relief(900, seed=6), n_gaps=1), sigma_in_spacings=0.3, seed=2).points
     )
     points = survey.cloud.points
-    agreed = survey.surface.triangles[survey.surface.largest]
-    triangles = assembled(points, survey.surface, survey.loop).triangles
+    surface = survey.draw_tight()
+    agreed = surface.triangles[surface.largest]
+    triangles = assembled(points, surface, survey.loop).triangles
     held = {frozenset(t) for t in agreed.tolist()}
     caps = np.array([t for t in triangles.tolist() if frozenset(t) not in held])
     kept = np.array([t for t in triangles.tolist() if frozenset(t) in held])

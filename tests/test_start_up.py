@@ -81,7 +81,7 @@ def test_ctrl_c_ends_a_start_with_130_and_without_a_word(tmp_path, module):
 
 
 def test_kernels_are_kept_among_temporary_files_where_nothing_else_can_be_written(read_only):
-    code = f"{KEPT}; from pointchart._kernels.half_edges import following; assert following(5) == 3"
+    code = f"{KEPT}; from pointchart._kernels.mesh.half_edges import following; assert following(5) == 3"
     done = python("-c", code)
     folder = read_only / f"pointchart-{os.getuid()}"
     assert (done.stdout, done.stderr) == (f"{folder}\n", "")
@@ -90,7 +90,7 @@ def test_kernels_are_kept_among_temporary_files_where_nothing_else_can_be_writte
 
 
 def test_kernels_are_kept_there_though_numba_is_imported_first(read_only):
-    code = f"import numba; {KEPT}; from pointchart._kernels.half_edges import following; following(5)"
+    code = f"import numba; {KEPT}; from pointchart._kernels.mesh.half_edges import following; following(5)"
     assert python("-c", code).returncode == 0
     assert list(read_only.rglob("half_edges.following*"))
 

@@ -757,7 +757,7 @@ def test_an_error_that_nobody_foresaw_is_shown_and_logged(bare, caplog):
     assert "Traceback" in caplog.text
 
 
-@pytest.mark.parametrize("fails", ["app.MeshStep", "page.Drawing"])
+@pytest.mark.parametrize("fails", ["browser_app.MeshStep", "session.Drawing"])
 def test_a_page_interrupted_while_it_is_built_leaves_no_folder_and_no_server(scan_file, monkeypatch, fails):
     def interrupt(*_):
         raise KeyboardInterrupt

@@ -21,6 +21,7 @@ from .boundary import (
     uniform_steps as uniform_steps,
 )
 from .proof.certificate import Certificate as Certificate, certify as certify
+from .chart.rule import Chart as Chart
 from .chart.on_mesh import (
     uv_free_boundary as uv_free_boundary,
     uv_low_stretch as uv_low_stretch,
@@ -114,7 +115,8 @@ from .cad import (
 )
 from .surface.surfacing import SurfacedScan as SurfacedScan, fit_scan as fit_scan
 from .boundary.bounded import Survey as Survey, survey_scan as survey_scan
-from .mesh.delaunay_swaps import Swapped as Swapped, keep_edges as keep_edges, swap_to_delaunay as swap_to_delaunay
+from .mesh.delaunay_swaps import keep_edges as keep_edges, swap_to_delaunay as swap_to_delaunay
+from .mesh.swap_rule import Swapped as Swapped, Swaps as Swaps
 from .mesh.planar_delaunay import triangulate as triangulate
 from .points.surroundings import Vicinity as Vicinity, explore as explore
 from .map.weights import (

@@ -94,7 +94,18 @@ class InputError(PointchartError):
 
 
 class OptionError(PointchartError):
-    """Options of a run that do not fit together, or a value that one cannot have; the message names them as flags."""
+    """Options of a run that do not fit together, or a value that one cannot have; the message names them as flags.
+
+    Parameters
+    ----------
+    message : str
+    flag : str, optional
+        The option whose value is at fault, where the message does not name it.
+    """
+
+    def __init__(self, message: str, *, flag: str | None = None) -> None:
+        super().__init__(message)
+        self.flag = flag
 
 
 class SolveError(PointchartError):

@@ -1,10 +1,10 @@
 """The parameters of a finished mesh: one-to-one on the mesh in three ways, or the paper's own."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import suppress
 from functools import partial
 from itertools import islice
-from typing import TypeAlias, cast
+from typing import cast
 
 import numpy as np
 import scipy.sparse as sp
@@ -22,14 +22,14 @@ from ..solve.algebraic_multigrid import multigrid
 from ..solve.systems import Solver, solve_fixed
 from ..typing import UV, Loop, Points, Triangles
 from .free_boundary import minimize_dirichlet
+from .rule import Chart
 
 QUICK_TOLERANCES = 1e-6, 1e-10  # of the first maps, each tried for being one-to-one
 DIRECT_LIMIT = 10_000  # points up to which factors cost less than a hierarchy of matrices
 RELAXATIONS = 8  # the stretch falls most in the first two; thin limbs go on to open up to the eighth
 
-ChartRule: TypeAlias = Callable[[Points, Loop, UV, Meshed, Solver | None], Parameterization]
 
-
+@partial(Chart, name="one-to-one on a convex domain")
 def uv_on_mesh(points: Points, loop: Loop, boundary_uv: UV, meshed: Meshed, solver: Solver | None) -> Parameterization:
     """Map the mesh by mean value weights: one-to-one, by Tutte's and Floater's theorem.
 
@@ -96,6 +96,7 @@ def _mean_value_matrix(points: Points, rings: Neighborhoods) -> sp.csr_array:
     return sp.csr_array((mean_value(points, rings), rings.indices, indptr), shape=(rings.n_points,) * 2)
 
 
+@partial(Chart, name="of low stretch on a convex domain")
 def uv_low_stretch(
     points: Points, loop: Loop, boundary_uv: UV, meshed: Meshed, solver: Solver | None
 ) -> Parameterization:
@@ -138,6 +139,7 @@ def uv_low_stretch(
     return best
 
 
+@partial(Chart, name="with a free boundary, in the unit of the scan")
 def uv_free_boundary(
     points: Points, loop: Loop, boundary_uv: UV, meshed: Meshed, solver: Solver | None
 ) -> Parameterization:
@@ -185,6 +187,7 @@ def is_positive(uv: UV, triangles: Triangles) -> bool:
     return bool((orientation_signs(uv, triangles) > 0).all())
 
 
+@partial(Chart, needs_map=True, is_one_to_one=False, name="of the points, by the paper")
 def uv_of_points(
     points: Points, loop: Loop, boundary_uv: UV, meshed: Meshed, solver: Solver | None
 ) -> Parameterization:

@@ -51,22 +51,21 @@ class MeshedScan:
 
 def mesh_facts(meshed: MeshedScan, clock: StageClock, options: dict[str, Any]) -> dict[str, Any]:
     """Gather what a run did."""
-    result, made = meshed.result, meshed.result.evidence.meshed
-    chart = result.evidence.chart
+    result, evidence = meshed.result, meshed.result.evidence
     return {
         "points": _points(meshed),
         "options": options,
         "stages": stage_facts(clock),
         "peak_memory_mb": peak_memory_mb(),
         "boundary": _boundary(meshed),
-        "solve": solve_facts((made.first_map or chart).solution),
-        "solve_uv": solve_facts(chart.solution),
+        "solve": solve_facts(evidence.first_solve or evidence.solve),
+        "solve_uv": solve_facts(evidence.solve),
         "swaps": {
-            "count": made.swapped.n_swaps,
-            "settled": made.swapped.is_settled,
-            "closed_pockets": made.n_pockets,
-            "recovered_links": made.n_recovered,
-            "relocated_points": made.n_relocated,
+            "count": evidence.counts.n_swaps,
+            "settled": evidence.counts.is_settled,
+            "closed_pockets": evidence.counts.n_pockets,
+            "recovered_links": evidence.counts.n_recovered,
+            "relocated_points": evidence.counts.n_relocated,
         },
         "certificate": certificate_facts(result.certificate),
         "quality": quality_facts(meshed.quality) | {"self_intersections": _places(meshed.intersections)},

@@ -8,7 +8,7 @@ import numpy as np
 
 from .. import boundary
 from ..chart import on_mesh as chart
-from ..chart.on_mesh import ChartRule
+from ..chart.rule import ChartRule
 from ..errors import OptionError
 from ..gaps import rules as gaps
 from ..gaps.rules import GapRule
@@ -16,8 +16,9 @@ from ..map import weights
 from ..map.weights import WeightScheme
 from ..mesh import crease_swaps as curvature_swaps
 from ..mesh import delaunay_swaps as swaps
-from ..mesh.make import SwapRule
-from ..pipeline import Connect, LayoutRule
+from ..mesh.swap_rule import SwapRule
+from ..mesh.ways import Connect
+from ..pipeline import LayoutRule
 from ..points import neighbors, stars
 from ..points import surroundings as vicinity
 from ..points.neighbors import Neighborhoods

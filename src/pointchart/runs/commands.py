@@ -11,6 +11,5 @@ from .view_run import ViewRun
 
 Run = MeshRun | ParamRun | BoundaryRun | FitRun | FigureRun | CheckRun | DemoRun
 RECORDS: dict[str, type[Run | ViewRun]] = {
-    record.command: record
-    for record in (MeshRun, ParamRun, BoundaryRun, FitRun, FigureRun, CheckRun, ViewRun, DemoRun)
+    record.command: record for record in (MeshRun, ParamRun, BoundaryRun, FitRun, FigureRun, CheckRun, ViewRun, DemoRun)
 }

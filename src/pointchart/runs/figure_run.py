@@ -83,9 +83,7 @@ class SheetOptions:
         help="Pixels an inch of png, and of images in svg and pdf.",
         group=Group.output,
     )
-    transparent: bool = option(
-        "--transparent", default=False, help="Leave out the white ground.", group=Group.output
-    )
+    transparent: bool = option("--transparent", default=False, help="Leave out the white ground.", group=Group.output)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

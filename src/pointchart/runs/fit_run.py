@@ -162,9 +162,7 @@ class FitFiles:
         help="Draw reflection lines and curvature: png, svg, pdf.",
         group=Group.output,
     )
-    explain: bool = option(
-        "--explain", default=False, help="Say which choices were made and why.", group=Group.output
-    )
+    explain: bool = option("--explain", default=False, help="Say which choices were made and why.", group=Group.output)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

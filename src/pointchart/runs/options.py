@@ -3,7 +3,6 @@
 from collections.abc import Mapping
 from dataclasses import MISSING, dataclass, field, fields, is_dataclass
 from enum import StrEnum
-from functools import cache
 from types import NoneType
 from typing import Any, TypeVar, get_args, get_type_hints
 
@@ -101,10 +100,10 @@ def argument(metavar: str, help: str, *, is_input: bool = True) -> Any:
     return option(help=help, group=Group.input, metavar=metavar, is_input=is_input)
 
 
-@cache
 def options_of(record: type) -> tuple[Option, ...]:
     """Return the options of a record and of the records that it holds, in their order."""
-    hints, found = get_type_hints(record), []
+    hints = get_type_hints(record)
+    found: list[Option] = []
     for one in fields(record):
         hint = hints[one.name]
         if is_dataclass(hint):

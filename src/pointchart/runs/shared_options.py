@@ -11,7 +11,8 @@ from .options import Group, argument, option
 
 if TYPE_CHECKING:
     from ..map.weights import WeightScheme
-    from ..pipeline import Connect, LayoutRule
+    from ..mesh.ways import Connect
+    from ..pipeline import LayoutRule
     from ..typing import Floats, Indices
 
 

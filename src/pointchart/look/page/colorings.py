@@ -102,7 +102,7 @@ def mesh_shades(
             scale * near.spacing[places],
             is_log=True,
         ),
-        Shade("boundary score", "0 inside, 1 on the boundary", survey.scores.total[places]),
+        Shade("boundary score", "0 inside, 1 on the boundary", survey.score().total[places]),
     ]
 
 
