@@ -6,7 +6,7 @@ import re
 import numpy as np
 import pytest
 
-from pointchart.chart.on_mesh import uv_free_boundary
+from pointchart.chart.free_boundary import uv_free_boundary
 from pointchart.report.surface_facts import surface_facts
 from pointchart.report.surface_notes import choice_notes, surface_notes
 from pointchart.surface import BSplineSurface, Deviation, Fit, Level

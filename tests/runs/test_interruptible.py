@@ -3,9 +3,9 @@ import subprocess
 import sys
 
 import pytest
+from pointchart.cli.aside import aside
 
 from pointchart import FormatError
-from pointchart.cli.aside import aside
 from pointchart.io.output import remove_temporaries, replacing
 
 # A call that computes for ten minutes without a look at signals, with a file half written.
