@@ -1,15 +1,15 @@
-"""The functions of the library that the words of the command line name."""
+"""The functions of the library that the words of options name."""
 
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 
 import numpy as np
-import typer
 
 from .. import boundary
 from ..chart import on_mesh as chart
 from ..chart.rule import ChartRule
+from ..errors import OptionError
 from ..gaps import rules as gaps
 from ..gaps.rules import GapRule
 from ..map import weights
@@ -23,7 +23,7 @@ from ..points import neighbors, stars
 from ..points import surroundings as vicinity
 from ..points.neighbors import Neighborhoods
 from ..typing import UV, Floats, Indices, Loop, Points
-from .words import Chart, Domain, Holes, Neighbors, Spacing, SurfaceDomain, Swap, Weighting
+from .option_values import Chart, Domain, Holes, Neighbors, Spacing, SurfaceDomain, Swap, Weighting
 
 WEIGHTS: dict[Weighting, WeightScheme] = {
     Weighting.mean_value: weights.mean_value,
@@ -58,15 +58,15 @@ def connect_rule(kind: Neighbors | None, k: int | None, radius: float | None) ->
     if kind is None and k is None and radius is None:
         return None
     if radius is not None and not 0.0 < radius < float("inf"):
-        raise typer.BadParameter(
+        raise OptionError(
             f"--radius is {radius:g}; it has to be positive and finite, some 2 to 4 times the spacing of the points"
         )
     if kind is Neighbors.ball:
         if k is not None or radius is None:
-            raise typer.BadParameter("--neighbors ball needs --radius and no -k")
+            raise OptionError("--neighbors ball needs --radius and no -k")
         return partial(neighbors.ball, radius=radius)
     if radius is not None and k is not None:
-        raise typer.BadParameter("-k and --radius exclude each other: candidates are the k nearest or those in a ball")
+        raise OptionError("-k and --radius exclude each other: candidates are the k nearest or those in a ball")
     around: Callable[[Points], Neighborhoods] = (
         partial(neighbors.nearest, k=vicinity.NEAREST if k is None else k)
         if radius is None
@@ -74,7 +74,7 @@ def connect_rule(kind: Neighbors | None, k: int | None, radius: float | None) ->
     )
     if kind is Neighbors.nearest:
         if radius is not None:
-            raise typer.BadParameter("--neighbors nearest takes -k and no --radius; for a ball say --neighbors ball")
+            raise OptionError("--neighbors nearest takes -k and no --radius; for a ball say --neighbors ball")
         return around
     return lambda points: stars.delaunay_star(points, around(points))
 
@@ -91,10 +91,10 @@ def corner_names(domain: Domain | SurfaceDomain, corners: str | None) -> list[in
     if corners is None:
         return None
     if domain not in (Domain.square, SurfaceDomain.square):
-        raise typer.BadParameter("--corners needs --domain square")
+        raise OptionError("--corners needs --domain square")
     words = corners.split(",")
     if len(words) != 4 or not all(word.strip().isdigit() for word in words):
-        raise typer.BadParameter(f"--corners is '{corners}'; four boundary points are needed, such as 12,480,971,1500")
+        raise OptionError(f"--corners is '{corners}'; four boundary points are needed, such as 12,480,971,1500")
     return [int(word) for word in words]
 
 
@@ -116,13 +116,13 @@ def outer_place(text: str | None, boundary: Path | None = None) -> Floats | None
     if text is None:
         return None
     if boundary is not None:
-        raise typer.BadParameter("--boundary and --outer exclude each other: either says which loop the boundary is")
+        raise OptionError("--boundary and --outer exclude each other: either says which loop the boundary is")
     try:
         place = np.array([float(word) for word in text.split(",")]).reshape(3)
     except ValueError:
         place = np.full(3, np.nan)
     if not np.isfinite(place).all():
-        raise typer.BadParameter(f"--outer is '{text}'; a place is needed, such as 0.5,-12,3.25")
+        raise OptionError(f"--outer is '{text}'; a place is needed, such as 0.5,-12,3.25")
     return place
 
 
@@ -133,10 +133,10 @@ def amount(option: str, text: str, *, positive: bool = False, below: float = np.
     try:
         value = float(word) / (100.0 if is_share else 1.0)
     except ValueError:
-        raise typer.BadParameter(f"{option} is '{text}'; a number is needed, or one with %, such as 0.1%") from None
+        raise OptionError(f"{option} is '{text}'; a number is needed, or one with %, such as 0.1%") from None
     if not 0.0 <= value < below or (positive and value == 0.0):
         least, most = "above 0" if positive else "at least 0", "finite" if below == np.inf else f"below {below:.0%}"
-        raise typer.BadParameter(f"{option} is '{text}'; it has to be {least} and {most}")
+        raise OptionError(f"{option} is '{text}'; it has to be {least} and {most}")
     return lambda whole: value * whole if is_share else value
 
 
@@ -147,5 +147,18 @@ def fairness_weight(text: str) -> float | None:
     except ValueError:
         weight = np.nan
     if weight is not None and not 0.0 <= weight < np.inf:
-        raise typer.BadParameter(f"--fairness is '{text}'; auto is needed, or a finite number from 0, such as 1e-5")
+        raise OptionError(f"--fairness is '{text}'; auto is needed, or a finite number from 0, such as 1e-5")
     return weight
+
+
+def view_angles(text: str | None) -> tuple[float, float] | None:
+    """Return how far to walk around a scan and to look down on it, in degrees, if it is given."""
+    try:
+        turn, tilt = (0.0, 0.0) if text is None else (float(word) for word in text.split(","))
+        if not (abs(turn) <= 360.0 and abs(tilt) <= 90.0):
+            raise ValueError
+    except ValueError:
+        raise OptionError(
+            f"--view is '{text}'; two angles in degrees are needed, such as 30,20, the second from -90 to 90"
+        ) from None
+    return None if text is None else (turn, tilt)

@@ -1,4 +1,4 @@
-"""What the commands read, once it is known that their outputs can be written."""
+"""What runs read, once it is known that their outputs can be written."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -9,15 +9,14 @@ from numpy.typing import ArrayLike
 
 from ..errors import InputError
 from ..io import Scan, check_output, read_loop, read_scan
-from ..look.page import PAGE_SUFFIXES
 from ..points.parts import largest_component
 from ..typing import UV, Indices, Loop, Points
-from .words import Component
+from .shared_options import Source
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Inputs:
-    """What a command works on.
+    """What a run works on.
 
     Attributes
     ----------
@@ -66,28 +65,24 @@ class Inputs:
         return np.asarray(place[indices])
 
 
-def read_inputs(
-    scan: Path,
-    boundary: Path | None,
-    corners: Sequence[int] | None,
-    *,
-    out: Path,
-    suffixes: Sequence[str],
-    report: Path | None = None,
-    html: Path | None = None,
-    component: Component | None = None,
-) -> Inputs:
-    """Check the output, the report and the page, then read the scan and the boundary, if one is given."""
-    taken = [scan] if boundary is None else [scan, boundary]
-    for path, allowed in ((out, suffixes), (report, (".json",)), (html, PAGE_SUFFIXES)):
+Outputs = Sequence[tuple[Path | None, Sequence[str]]]
+
+
+def check_outputs(outputs: Outputs, inputs: Sequence[Path | None]) -> None:
+    """Check that files can be written, by the suffixes that each may have, and are none that is read or written."""
+    taken = [path for path in inputs if path is not None]
+    for path, suffixes in outputs:
         if path is not None:
-            check_output(path, suffixes=allowed, inputs=taken)
-            taken.append(path)
-    read = read_scan(scan)
+            taken.append(check_output(path, suffixes=suffixes, inputs=taken))
+
+
+def read_inputs(source: Source, boundary: Path | None = None, corners: Sequence[int] | None = None) -> Inputs:
+    """Read the scan, and the boundary if one is given; the corners are named by rows of the file."""
+    read = read_scan(source.scan)
     loop = None if boundary is None else read_loop(boundary)
     whole = Inputs(read, np.arange(len(read.points)), loop)
-    part = whole if component is None else Inputs(read, largest_component(read.points))
-    if component is not None and loop is not None:
+    part = whole if source.component is None else Inputs(read, largest_component(read.points))
+    if source.component is not None and loop is not None:
         part = replace(part, loop=part.places_of(loop, "boundary points"))
     return part if corners is None else replace(part, corners=part.places_of(corners, "corners"))
 

@@ -1,4 +1,4 @@
-"""The words of the command line."""
+"""The values that options of a run can have, as words."""
 
 from enum import StrEnum
 
