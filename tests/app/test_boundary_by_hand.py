@@ -185,7 +185,7 @@ def test_points_behind_the_cloud_are_not_selected(by_hand, monkeypatch):
 def test_a_loop_is_changed_only_where_the_cloud_shows_it(by_hand):
     page, step, said = by_hand
     step._select(IN_FRONT, LEFT)
-    page.add_view("mesh", lambda: None)
+    page.views.add("mesh", lambda: None)
     step._select(IN_FRONT, ALL)
     assert said.pop() == "the cloud is not shown, so that no points of it are selected; set Show to cloud"
     step._edit_selected("Clear")
@@ -226,14 +226,14 @@ def test_a_click_names_the_outer_loop_and_no_word_stands_twice_on_the_command_li
     tab(window, "Boundary")
     choose(window, "A click", OUTER)
     click_point(window, page, MISSED)
-    x, y, z = (f"{x:.9g}" for x in RELIEF.points[MISSED])
-    start = f"pointchart boundary '{scan_file}' -o loop.txt"
-    until(lambda: line_shown(window) == f"{start} --outer {x},{y},{z}")
+    place = ",".join(f"{x:.9g}" for x in RELIEF.points[MISSED])
+    start, outer = f"pointchart boundary '{scan_file}' -o loop.txt", f"--outer{'=' if place[0] == '-' else ' '}{place}"
+    until(lambda: line_shown(window) == f"{start} {outer}")
     choose(window, "Component", "largest")
-    until(lambda: line_shown(window) == f"{start} --outer {x},{y},{z} --component largest")
+    until(lambda: line_shown(window) == f"{start} --component largest {outer}")
     fill(window, "Outer loop at", "")
     tab(window, "Mesh")
-    until(lambda: line_shown(window).endswith(" --boundary loop.txt --component largest"))
+    until(lambda: line_shown(window).endswith(" --component largest --boundary loop.txt"))
     tab(window, "Boundary")
     choose(window, "Component", "(default)")
     until(lambda: page.where() == {})

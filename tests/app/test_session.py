@@ -43,7 +43,7 @@ def test_a_click_shows_the_neighbourhood_of_a_point(window, page):
     choose(window, "Neighbourhood", "(default)")
     for word, sentence in (("3.7", "-k is '3.7'; a whole number is needed"), ("1000000000", "k is 1000000000, but of")):
         fill(window, "k nearest", word)
-        window.get_by_text(sentence).wait_for()
+        window.get_by_text(sentence).first.wait_for()
     fill(window, "k nearest", "")
     window.get_by_text(f"a star of {star.sizes[INNER]} neighbours").wait_for()
 

@@ -183,6 +183,7 @@ def test_a_word_that_is_no_value_of_its_option_is_refused_with_its_flag(word, se
 
 def test_the_line_of_a_step_that_cannot_be_is_the_reason(bare):
     step = mesh_step(bare)
+    step.refresh()
     assert "-o mesh.ply --boundary loop.txt" in step._line.content
     fit = Step(bare, FitRun, "Stub", result_steps.SURFACE, files=StepFiles("s.json", "s.step"), take=lambda: None)
     fit.controls.set("degree", "9")

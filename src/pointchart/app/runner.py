@@ -8,10 +8,11 @@ from typing import Any
 
 import viser
 
-from ..errors import InputError
+from ..errors import InputError, PointchartError
 from ..report.record import RunReport
 from ..runs.commands import Run
 from ..runs.process import Cancelled, RunProcess
+from ..runs.remedies import sentence
 
 ENDED = "**ended**; start pointchart view again"
 
@@ -50,7 +51,7 @@ class Runner:
             self._one.release()
 
     def execute(self, run: Run, folder: Path) -> RunReport:
-        """Execute a run in a folder; errors are those of `RunProcess`."""
+        """Execute a run in a folder; errors are those of `RunProcess`, in the words of the run."""
         process = self._process = RunProcess(run, folder=folder)
         try:
             if self._is_ended:
@@ -59,6 +60,8 @@ class Runner:
             self._tell(run.command, "starting", 0)
             self._show_progress(True)
             return process.execute(lambda stage, share: self._tell(run.command, stage, share))
+        except PointchartError as failure:
+            raise PointchartError(sentence(failure, run)) from None
         finally:
             self._show_progress(False)
             self._process = None

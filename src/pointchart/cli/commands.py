@@ -92,7 +92,7 @@ def _say(report: "RunReport") -> None:
 
 def _parameter(option: Option) -> inspect.Parameter:
     info = typer.Option(*option.flags, **_told(option)) if option.flags else typer.Argument(**_told(option))
-    kind: Any = option.kind if option.default is not None else option.kind | None  # type: ignore[operator]
+    kind: Any = option.kind if option.default is not None else option.kind | None
     default = inspect.Parameter.empty if option.is_required else option.default
     annotation: Any = Annotated[kind, info]
     return inspect.Parameter(option.name, inspect.Parameter.KEYWORD_ONLY, default=default, annotation=annotation)

@@ -5,15 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..typing import UV, Floats, Points, Triangles
-from .quality import (
-    area_distortions,
-    areas,
-    conformal_distortions,
-    l2_stretch,
-    least_distance,
-    linf_stretch,
-    radius_ratios,
-)
+from .distortion import area_distortions, conformal_distortions, l2_stretch, least_distance, linf_stretch
+from .quality import areas, radius_ratios
 
 
 @dataclass(frozen=True, slots=True)

@@ -17,7 +17,7 @@ from ...look.figures import (
     draw_plane,
     draw_zebra,
 )
-from ...mesh.quality import vertex_stretches
+from ...mesh.distortion import vertex_stretches
 from ...report.record import RunReport, WrittenFile
 from ..figure_run import OF_SURFACES, ON_MESHES, FigureRun
 from ..inputs import check_outputs, uv_of

@@ -6,7 +6,7 @@ from ...errors import points_called
 from ...io import MESH_SUFFIXES, check_digits, write_mesh
 from ...look.page import PAGE_SUFFIXES, lay_out, writing_page
 from ...look.page.html_page import HtmlPage
-from ...mesh.quality import vertex_stretches
+from ...mesh.distortion import vertex_stretches
 from ...pipeline import Reconstruction, reconstruct
 from ...report.as_json import writing_json
 from ...report.checks import certificate_checks, summary
