@@ -8,7 +8,7 @@ from .options import options_of, values_of
 if TYPE_CHECKING:
     from .commands import Run
 
-# The option of each remedy, and the word to give it: none where the user knows it, so that to give another may help.
+# The option of each remedy, and the word to give it, which only the user knows where it is empty.
 OPTIONS = {
     Remedy.bridge_gaps: ("holes", "bridge"),
     Remedy.leave_gaps_open: ("holes", "open"),
@@ -19,6 +19,7 @@ OPTIONS = {
     Remedy.allow_deviation: ("tolerance", ""),
     Remedy.take_the_best: ("best_effort", ""),
 }
+ONCE = Remedy.name_the_outer_loop, Remedy.give_the_boundary  # to give another word is no other remedy
 
 
 def sentence(error: PointchartError, run: "Run") -> str:
@@ -42,6 +43,9 @@ def _worded(remedy: Remedy, run: "Run") -> str | None:
         return str(remedy)
     name, word = OPTIONS[remedy]
     option = next((option for option in options_of(type(run)) if option.name == name), None)
-    if option is None or values_of(run)[name] == word:
+    if option is None:
+        return None
+    value = values_of(run)[name]
+    if value is True or value == word or (remedy in ONCE and value is not None):
         return None
     return f"{remedy} ({' '.join([option.flags[0], *word.split()])})"

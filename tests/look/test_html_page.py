@@ -18,7 +18,9 @@ from pointchart.look.page.histograms import quality_histograms
 from pointchart.look.page.pack import packed, quantized, steps
 from pointchart.look.page.thinned import thin
 from pointchart.mesh.connectivity import boundary_loops, fans, half_edges
-from pointchart.report import run_report
+from pointchart.report.checks import certificate_checks
+from pointchart.report.mesh_facts import mesh_facts
+from pointchart.runs.execution.measured import measure_mesh
 
 ACCENT = np.array([0xC8, 0x55, 0x3D])
 PAPER = np.array([0xFB, 0xFA, 0xF7])
@@ -29,7 +31,8 @@ SIDES = (("x", "width"), ("y", "height"))
 def made():
     points = shapes.sculpture(1500).points
     result = pc.reconstruct(points)
-    run = run_report(points, np.arange(len(points)), result, StageClock(), {"scan": "a.ply"}, boundary_given=False)
+    meshed = measure_mesh(points, np.arange(len(points)), result, StageClock())
+    run = mesh_facts(meshed, StageClock(), {"scan": "a.ply"})
     return points[result.rows], result, run
 
 
@@ -148,8 +151,7 @@ def test_the_checklist_is_that_of_the_run(opened, made):
     _, result, run = made
     checks = opened.locator("#checks li")
     passed = checks.evaluate_all("rows => rows.filter(r => r.className === 'passed').map(r => r.textContent)")
-    lines = [line[5:] for line in pc.report.certificate_lines(result.certificate) if line.startswith("[ok]")]
-    assert passed == lines
+    assert passed == [check.text for check in certificate_checks(result.certificate) if check.passed]
     assert run["certificate"]["disc"]
     assert opened.locator("#verdict").inner_text() == "certified disc, uv one-to-one"
     assert f"{run['certificate']['points']:,} points" in opened.locator("#summary").inner_text()
@@ -371,7 +373,8 @@ def test_thirty_thousand_points_take_under_five_megabytes():
     grid = shapes.sculpture(30_000)
     result = pc.reconstruct(grid.points)
     points = grid.points[result.rows]
-    run = run_report(points, np.arange(len(points)), result, StageClock(), {}, boundary_given=False)
+    meshed = measure_mesh(points, np.arange(len(points)), result, StageClock())
+    run = mesh_facts(meshed, StageClock(), {})
     assert len(lay_out(points, result, run, title="a", command="").text.encode()) < 5e6
 
 

@@ -7,9 +7,10 @@ import numpy as np
 import pytest
 
 from pointchart.chart.free_boundary import uv_free_boundary
+from pointchart.report.surface_facts import surface_facts
+from pointchart.report.surface_notes import choice_notes, surface_notes
 from pointchart.surface import BSplineSurface, Deviation, Fit, Level
 from pointchart.surface.surfacing import SurfacedScan
-from pointchart.surface_report import explain_lines, surface_lines, surface_report
 
 LOOP = np.array([[0.0, 0], [3, 0], [3, 2], [0, 2]])
 LEVELS = [Level(49, 1e-3, 0.5, 0.25, 0.26), Level(88, 1e-9, 0.0625, 0.03, 0.04)]
@@ -26,11 +27,15 @@ def surfaced(*, is_met=True, is_noise=False, n_loops=1):
     return SurfacedScan(None, fit, [LOOP] * n_loops, Deviation(signed), uv_free_boundary)
 
 
+def texts(notes):
+    return [note.text for note in notes]
+
+
 @pytest.mark.parametrize(
     ("n_loops", "words"), [(1, "its boundary"), (2, "its boundary and a gap"), (4, "its boundary and 3 gaps")]
 )
 def test_the_lines_name_the_surface_and_what_trims_it(n_loops, words):
-    first = surface_lines(surfaced(n_loops=n_loops), 0.1, 0.005, "mm")[0]
+    first = texts(surface_notes(surfaced(n_loops=n_loops), 0.1, 0.005, "mm"))[0]
     assert first == (
         f"B-spline surface of degree 3, 8 x 11 control points for 100 points (1.1 each), trimmed by {words}"
     )
@@ -38,7 +43,7 @@ def test_the_lines_name_the_surface_and_what_trims_it(n_loops, words):
 
 @pytest.mark.parametrize(("is_met", "word"), [(True, "met"), (False, "NOT met")])
 def test_the_lines_say_whether_the_tolerance_is_met_and_give_each_figure(is_met, word):
-    lines = surface_lines(surfaced(is_met=is_met), 0.05, 0.01, "mm")
+    lines = texts(surface_notes(surfaced(is_met=is_met), 0.05, 0.01, "mm"))
     assert lines[1] == f"tolerance 0.05 mm but for 1 % outliers: {word}"
     figures = dict(line.strip().split(": ") for line in lines[2:])
     assert float(figures["max"]) == 0.0625
@@ -47,7 +52,7 @@ def test_the_lines_say_whether_the_tolerance_is_met_and_give_each_figure(is_met,
 
 
 def test_choices_are_explained_level_by_level():
-    lines = explain_lines(surfaced())
+    lines = texts(choice_notes(surfaced()))
     assert lines[0].endswith("a domain of 3 x 2")
     levels = [line for line in lines if re.match(r"  \d+: ", line)]
     assert levels == [
@@ -65,11 +70,11 @@ def test_choices_are_explained_level_by_level():
     ],
 )
 def test_the_explanation_says_why_refinement_ended(options, reason):
-    assert explain_lines(surfaced(**options))[-1].startswith(f"ended because {reason}")
+    assert texts(choice_notes(surfaced(**options)))[-1].startswith(f"ended because {reason}")
 
 
 def test_the_report_is_plain_data_that_comes_back_from_json():
-    report = surface_report(surfaced(n_loops=2), POINTS, 0.05, 0.01, "mm")
+    report = surface_facts(surfaced(n_loops=2), POINTS, 0.05, 0.01, "mm")
     again = json.loads(json.dumps(report, allow_nan=False))
     assert again == report
     assert again["unit"] == "mm"

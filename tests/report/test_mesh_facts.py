@@ -5,21 +5,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from pointchart import FormatError, SolveError, StageClock, certify, leave_gaps_open, reconstruct, shapes
+from pointchart import FormatError, SolveError, StageClock, leave_gaps_open, reconstruct, shapes
 from pointchart.gaps.bridges import Bridge
-from pointchart.report import (
-    boundary_lines,
-    certificate_lines,
-    certificate_report,
-    intersection_lines,
-    peak_memory_mb,
-    run_report,
-    summary,
-    write_json,
-)
+from pointchart.report.as_json import write_json
+from pointchart.report.mesh_facts import mesh_facts
+from pointchart.report.mesh_notes import boundary_notes, intersection_notes
+from pointchart.runs.execution.measured import measure_mesh
 
-SQUARE = np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]])
-WHOLE = [[0, 1, 2], [0, 2, 3]]
 CONTRACT = {
     "boundary": {"points", "length", "origin", "loops", "gaps", "doubts", "tried_before"},
     "solve": {"unknowns", "nonzeros", "method", "iterations", "residual"},
@@ -40,6 +32,17 @@ CONTRACT = {
 }
 
 
+def facts_of(points, result, clock=None, options=None, *, boundary_given=False):
+    """Return what is told of a mesh of a whole scan."""
+    clock = clock or StageClock()
+    meshed = measure_mesh(points, np.arange(len(points)), result, clock, is_boundary_given=boundary_given)
+    return mesh_facts(meshed, clock, options or {})
+
+
+def boundary_lines(result, points, *, found):
+    return [note.text for note in boundary_notes(result, points, found=found)]
+
+
 @pytest.fixture(scope="module")
 def run():
     """Return a run on a shuffled disc with a gap and two repeated points: scan, result, report."""
@@ -49,7 +52,7 @@ def run():
     points = points[np.random.default_rng(1).permutation(len(points))]
     clock = StageClock()
     result = reconstruct(points, clock=clock)
-    return points, result, run_report(points, np.arange(len(points)), result, clock, {"k": 12}, boundary_given=False)
+    return points, result, facts_of(points, result, clock, {"k": 12})
 
 
 @pytest.fixture(scope="module")
@@ -129,9 +132,7 @@ def test_a_report_names_every_loop_the_chosen_one_first(run):
 def test_a_report_on_a_boundary_that_was_given_has_no_loops_to_choose_from():
     shape, clock = shapes.grid(9, 7), StageClock()
     result = reconstruct(shape.points, shape.boundary, clock=clock)
-    boundary = run_report(shape.points, np.arange(len(shape.points)), result, clock, {}, boundary_given=True)[
-        "boundary"
-    ]
+    boundary = facts_of(shape.points, result, clock, boundary_given=True)["boundary"]
     assert boundary == {
         "points": 28,
         "length": 28.0,
@@ -147,7 +148,7 @@ def test_a_gap_left_open_is_a_hole_of_the_certificate_and_still_a_gap(run):
     points, bridged, report = run
     clock = StageClock()
     opened = reconstruct(points, gaps=leave_gaps_open, clock=clock)
-    with_hole = run_report(points, np.arange(len(points)), opened, clock, {}, boundary_given=False)
+    with_hole = facts_of(points, opened, clock)
     assert with_hole["boundary"]["gaps"] == report["boundary"]["gaps"]
     closed, proof = report["certificate"], with_hole["certificate"]
     assert (closed["disc"], closed["as_asked"], closed["holes"]) == (True, True, 0)
@@ -166,7 +167,7 @@ def test_every_bridge_is_a_gap_where_the_scan_ends_and_a_doubt_where_it_does_not
     assert line == f"1 gap of the scan, bridged, the largest {gap.rim_in_spacings:.0f} spacings round"
     doubt = replace(gap, share=0.49)
     doubtful = with_evidence(result, bridges=[doubt, gap, replace(gap, share=0.5)])
-    report = run_report(points, np.arange(len(points)), doubtful, StageClock(), {}, boundary_given=True)["boundary"]
+    report = facts_of(points, doubtful, boundary_given=True)["boundary"]
     assert (len(report["gaps"]), len(report["doubts"])) == (2, 1)
     assert report["doubts"][0] == {
         "points": len(gap.points),
@@ -188,7 +189,7 @@ def test_the_loops_that_did_not_do_are_counted_and_reported_as_they_were_refused
     tried = with_evidence(result, candidates=result.evidence.candidates * 3, failures=failures)
     (line,) = boundary_lines(tried, points, found=True)
     assert line == "boundary of 28 points, found, loop 3 of 3 by its scores: no mesh stood with 2 before it"
-    report = run_report(points, np.arange(len(points)), tried, StageClock(), {}, boundary_given=False)
+    report = facts_of(points, tried)
     assert report["boundary"]["tried_before"] == ["the surface is no disc at point 7", "no solver"]
 
 
@@ -221,11 +222,11 @@ def test_a_mesh_that_passes_through_itself_is_reported_with_the_place(sheet):
     turn = points[:, 0] / 8 * (np.pi + 1.0) - 0.5
     eight = np.c_[np.sin(turn), points[:, 1], np.sin(turn) * np.cos(turn)]
     for scan, count in ((points, 0), (eight, 1)):
-        run = run_report(scan, np.arange(len(scan)), result, StageClock(), {}, boundary_given=False)
-        found = run["quality"]["self_intersections"]
+        meshed = measure_mesh(scan, np.arange(len(scan)), result, StageClock())
+        found = mesh_facts(meshed, StageClock(), {})["quality"]["self_intersections"]
         assert (found["pairs"] > 0, found["count"], len(found["places"])) == (count > 0, count, count)
-        assert len(intersection_lines(run)) == count
-    (line,) = intersection_lines(run)
+        assert len(intersection_notes(meshed.intersections)) == count
+    line = intersection_notes(meshed.intersections)[0].text
     assert np.abs(np.array(found["places"])[0, [0, 2]]).max() < 0.5
     assert re.fullmatch(r"look at 1 place where the mesh passes through itself, the first at \(.*, .*, .*\)", line)
 
@@ -238,78 +239,3 @@ def test_a_report_comes_back_from_its_file(run, tmp_path):
 def test_a_report_into_a_missing_folder_is_refused(tmp_path):
     with pytest.raises(FormatError, match="it cannot be written"):
         write_json(tmp_path / "none" / "run.json", {})
-
-
-def test_a_good_mesh_passes_every_line():
-    proof = certify(SQUARE, WHOLE, uv=SQUARE[:, :2], loop=[0, 1, 2, 3])
-    lines = certificate_lines(proof)
-    assert all(line.startswith("[ok] ") for line in lines[:-1])
-    assert re.fullmatch(r"\[--\] longest edge \d\.\d local spacings, 0 folds", lines[-1])
-    assert summary(proof) == "a certified disc: 4 points, 2 triangles, uv one-to-one"
-
-
-@pytest.mark.parametrize(
-    ("triangles", "uv", "loop", "fault"),
-    [
-        ([[0, 1, 2]], None, None, r"\[!!\] every point used: 1 unused"),
-        ([[0, 1, 2], [0, 3, 2]], None, None, r"\[!!\] edges manifold, orientation consistent: 1 edges at fault"),
-        (WHOLE, None, [0, 1, 2], r"\[!!\] boundary as asked for: another loop"),
-        (WHOLE, SQUARE[:, :2] * [0, 1], None, r"\[!!\] uv distinct: 4 points coincide"),
-        (WHOLE, SQUARE[:, :2] * [-1, 1], None, r"\[!!\] uv one-to-one, .*: 2 triangles flat or folded"),
-    ],
-)
-def test_every_fault_has_its_line(triangles, uv, loop, fault):
-    text = "\n".join(certificate_lines(certify(SQUARE, triangles, uv=uv, loop=loop)))
-    assert re.search(fault, text)
-
-
-def test_the_summary_of_a_bad_mesh_names_all_faults():
-    ring = shapes.annulus(12, 3)
-    assert summary(certify(ring.points, ring.triangles)) == (
-        "no disc: its Euler characteristic is 0 instead of 1, it has 2 boundary loops instead of 1"
-    )
-
-
-@pytest.mark.parametrize("holes", [0, 1, 2])
-def test_holes_that_were_asked_for_are_no_fault_and_others_are(holes):
-    ring = shapes.annulus(12, 3)
-    proof = certify(ring.points, ring.triangles, holes=holes)
-    lines, report = certificate_lines(proof), certificate_report(proof)
-    assert (report["holes"], report["as_asked"], report["disc"]) == (holes, holes == 1, False)
-    if holes == 1:
-        assert {"[ok] Euler characteristic 0", "[ok] 2 boundary loops, 1 of them round holes"} <= set(lines)
-        assert summary(proof) == "a certified disc with a hole: 36 points, 48 triangles"
-    else:
-        loops = "one boundary loop" if holes == 0 else "3 boundary loops, 2 of them round holes"
-        assert {f"[!!] Euler characteristic {1 - holes}: it is 0", f"[!!] {loops}: there are 2"} <= set(lines)
-        assert summary(proof) == (
-            f"no disc: its Euler characteristic is 0 instead of {1 - holes}, it has 2 boundary loops instead of "
-            f"{1 + holes}"
-        )
-
-
-def test_the_summary_counts_several_holes():
-    shape = shapes.pierce(shapes.disc(1200), n_gaps=3, radius_in_spacings=3.5)
-    proof = certify(shape.points, shape.triangles, uv=shape.uv, holes=3)
-    assert summary(proof) == (
-        f"a certified disc with 3 holes: {len(shape.points)} points, {len(shape.triangles)} triangles, uv one-to-one"
-    )
-
-
-def test_a_folded_disc_is_called_folded():
-    proof = certify(SQUARE, WHOLE, uv=SQUARE[:, :2] * [-1, 1])
-    assert summary(proof) == "a certified disc: 4 points, 2 triangles, uv folded at 2 triangles"
-
-
-def test_what_was_not_checked_is_null():
-    report = certificate_report(certify(SQUARE, WHOLE))
-    assert report["boundary_as_given"] is None
-    assert report["uv_distinct"] is None
-    assert report["uv_positive"] is None
-
-
-def test_the_peak_memory_never_falls_and_holds_the_largest_array():
-    before = peak_memory_mb()
-    size_mb = np.ones(2**24).nbytes // 2**20
-    assert peak_memory_mb() >= max(before, size_mb)
-    assert before < 10**6

@@ -5,8 +5,8 @@ import sys
 import pytest
 
 from pointchart import FormatError
-from pointchart.cli.aside import aside
 from pointchart.io.output import remove_temporaries, replacing
+from pointchart.runs.interruptible import interruptibly
 
 # A call that computes for ten minutes without a look at signals, with a file half written.
 DEAF = """
@@ -40,7 +40,7 @@ def test_what_the_run_raises_is_raised(reason):
         raise reason
 
     with pytest.raises(type(reason)) as raised:
-        aside(fail)
+        interruptibly(fail)
     assert raised.value is reason
 
 
