@@ -89,9 +89,7 @@ def test_a_failure_is_the_error_of_the_run(folder, run, kind, sentence):
     "code", ["raise SystemExit(9)", "print('no event')", "import sys; sys.stdout.buffer.write(b'\\x80')"]
 )
 def test_an_end_without_a_word_is_a_failure(code):
-    with pytest.raises(
-        SolveError, match=r"the run ended with status [09] and no word of why, as when memory gives out"
-    ):
+    with pytest.raises(SolveError, match=r"the run ended with status \d and no word of why, as when memory gives out"):
         RunProcess(RUN, program=(sys.executable, "-c", code)).execute(lambda *_: None)
 
 
@@ -105,10 +103,11 @@ def test_a_run_is_cancelled_at_once_also_before_it_begins():
 
 
 def test_a_real_run_is_cancelled_and_leaves_no_file(folder):
-    process = RunProcess(MeshRun(source=Source(scan=Path("relief.npy")), out=Path("m.ply")), folder=folder)
+    np.save(folder / "large.npy", shapes.relief(50_000).points)  # which takes much longer than to cancel
+    process = RunProcess(MeshRun(source=Source(scan=Path("large.npy")), out=Path("m.ply")), folder=folder)
     with pytest.raises(Cancelled):
         process.execute(lambda *_: process.cancel())
-    assert [path.name for path in folder.iterdir()] == ["relief.npy"]
+    assert sorted(path.name for path in folder.iterdir()) == ["large.npy", "relief.npy"]
 
 
 def test_a_run_that_is_over_cannot_be_cancelled():
