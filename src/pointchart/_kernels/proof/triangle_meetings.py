@@ -70,7 +70,7 @@ def meet(points, one, other):
     if abs(sum(sides_of_one)) == 3 or abs(sum(sides_of_other)) == 3:
         return -1
     verdict = max(pierces(points, other, sides_of_one, one), pierces(points, one, sides_of_other, other))
-    if verdict == 0:  # mostly triangles in one plane, for which exact arithmetic would be asked in vain
+    if verdict == 0:  # mostly triangles in one plane: parted here, they need no exact arithmetic, which is slow
         for x in range(3):
             y = (x + 1) % 3
             if is_apart_in_plane(points, one, other, x, y) or is_apart_in_plane(points, other, one, x, y):
