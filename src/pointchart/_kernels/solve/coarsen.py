@@ -103,7 +103,7 @@ def choose_coarse(indptr, indices, first, origins, strong, coarse):
         i = head[top]
         pull(head, after, before, i, rank[i])
         if rank[i] == 0:
-            # Nothing depends on it any more: if it depends on others, it is interpolated; alone, it is solved for.
+            # Nothing depends on it any more: interpolated if it depends on others, solved for if it is alone.
             coarse[i] = -1 if has_strong(indptr, strong, i) else 0
             continue
         coarse[i] = 0
@@ -255,7 +255,6 @@ def add_row(prolongation, j, factor, row, begin, size, own, mark, columns, value
         column, value = p_indices[t], factor * p_data[t]
         if column == row:
             own += value
-        # Marks of the rows before are wiped, yet may lie in memory that another range wrote: so the column is asked too.
         elif mark[column] >= begin and columns[mark[column]] == column:
             values[mark[column]] += value
         else:
