@@ -8,8 +8,8 @@ from .energy import alone_energy, swap_gain, tent_energy
 from .half_edges import following, preceding
 from .swaps import are_joined, link
 
-MOST_TRIANGLES = 60  # around a point that is taken out: ten times the usual six
-MOST_SWAPS = 400  # after one is put in
+MOST_TRIANGLES = 60  # around a point that is taken out, a cap: on the face there are 17 at most
+MOST_SWAPS = 400  # after one is put in, a cap: on the face there are 21 at most
 STACK = 5 * MOST_SWAPS + 20  # each swap asks for five edges; it begins with the twelve of four triangles
 # Both triangles of each swap are noted; taking out notes three more and putting in one.
 JOURNAL = 2 * (MOST_TRIANGLES + MOST_SWAPS) + 10
