@@ -165,6 +165,6 @@ def _size(p: Property) -> int:
     return int(p.type[1])
 
 
-# By struct, as numpy takes far longer to read a single number, of which there is one a list.
+# By struct, as there is a number a list, and to read a single one numpy takes eight times as long.
 _LETTERS = {"i1": "b", "u1": "B", "i2": "h", "u2": "H", "i4": "i", "u4": "I", "i8": "q", "u8": "Q"}
 _COUNTERS = {order + code: Struct(order + letter) for order in "<>" for code, letter in _LETTERS.items()}
