@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from pointchart.cli.choices import CHARTS, Chart
 from strategies import flat, rotations
 
 from pointchart import (
@@ -33,7 +34,6 @@ from pointchart.boundary import chord_length_on_circle
 from pointchart.chart import on_mesh as charts
 from pointchart.chart.free_boundary import first_flat
 from pointchart.chart.on_mesh import DIRECT_LIMIT, QUICK_TOLERANCES
-from pointchart.cli.choices import CHARTS, Chart
 from pointchart.mesh.make import Meshed
 from pointchart.mesh.quality import area_vectors
 from pointchart.mesh.swap_rule import Swapped

@@ -5,11 +5,11 @@ import pytest
 from comparisons import edges_of
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from pointchart.cli.choices import SWAPS, Swap
 from strategies import planar_discs, rotations, seeds
 
 from pointchart import shapes
 from pointchart._kernels.mesh import curvature_swaps as kernels
-from pointchart.cli.choices import SWAPS, Swap
 from pointchart.mesh.connectivity import boundary_loops, half_edges
 from pointchart.mesh.crease_swaps import (
     swap_to_least_curvature,
