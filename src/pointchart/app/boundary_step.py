@@ -22,19 +22,21 @@ from .step import Step
 from .step_files import StepFiles
 from .views import CLOUDS
 
-FOUND, LOOPS, LOADED = "loop-found.txt", "loops.ply", "loaded.txt"
-BOUNDARY_SCORE = 0.5
+FOUND, LOOPS, LOADED = "loop-found.txt", "loops.ply", "loaded.txt"  # files in the folder of the page
+BOUNDARY_SCORE = 0.5  # from which on more speaks for the boundary than against it
 NEAR = 0.05  # depth from which on points count for where the polygon is drawn
 CLOSER = 0.9  # share of the way to the nearest point at which the polygon is drawn
+# What a click does, to be read behind “A click”; then the labels of options and of buttons.
 INSERT, DROP, OUTER = "inserts it in the loop", "drops the nearest loop point", "names the outer loop"
 LABELS = (("outer", "Outer loop at"), ("component", "Component"))
 UNDO, REVERSE, RESTART, EMPTY = "Undo", "Reverse", "Found loop", "Empty"
 ADD, LEAVE_OUT, CLEAR = "Add", "Drop", "Clear"
+# Said, as no control of the page shows that points can be selected so.
 HOW = (
     "“A click” above says what a click on the cloud does, as to insert or drop a point. Shift + drag draws a polygon: "
     "it selects points seen inside that are in the loop or score as boundary points, to be added or dropped."
 )
-NO_POINTS: Indices = np.empty(0, np.int64)
+NO_POINTS: Indices = np.empty(0, np.int64)  # what is selected, and other loops, before there are any
 
 
 class BoundaryStep:

@@ -20,7 +20,8 @@ from .html import command_html, refused_html, said_html
 from .one_neighborhood import around_point
 from .session import Session
 
-SHOW = "shows its neighbourhood"
+SHOW = "shows its neighbourhood"  # what a click does, to be read behind “A click”
+# The options that have controls, with their labels: those of the paper's three methods.
 METHODS = (("neighbors", "Neighbourhood"), ("k", "k nearest"), ("radius", "Radius"), ("weights", "Weights"))
 
 

@@ -8,7 +8,7 @@ from viser import GuiApi
 from ..errors import InputError
 from ..runs.options import Option, options_of
 
-CHOSEN = "(default)"
+CHOSEN = "(default)"  # for options that need no word; brackets, so that it is no word of any
 KINDS = {int: "a whole number", float: "a number"}  # what a word has to be, by the kind of its option
 
 

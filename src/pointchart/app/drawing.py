@@ -19,17 +19,19 @@ from .painter import SPACING, Painter
 from .picking import Camera, nearest_to_ray
 from .window_fit import DISTANCE, whole_distance
 
-MOST_POINTS, MOST_TRIANGLES = 300_000, 400_000
+MOST_POINTS, MOST_TRIANGLES = 300_000, 400_000  # drawn: a choice, for browsers that have no graphics card to draw with
 MOST_EDGED = 100_000  # triangles; the edges of more make one dark plane
 FEW_POINTS, FEW_TRIANGLES = 20_000, 20_000  # while the camera moves, where a browser is slow
 FAR = 4000.0  # beyond what cameras draw, but not beyond what is under the pointer
 NEAREST = 12  # points whose plane tells how a point is lit
 
+# Of the loop, other loops, links from strong to weak, edges; the first and the last as in pictures.
 LOOP, OTHER, LINK, PALE, EDGE = (200, 85, 61), (226, 160, 60), (24, 78, 119), (190, 214, 230), (34, 48, 60)
 FINE, COARSE = "fine", "coarse"  # levels of detail
+# What can be shown: in space, and in the plane of the parameters, which is looked at from above.
 IN_SPACE = ("cloud", "mesh", "surface")
 GROUPS = (*IN_SPACE, "plane", "flat")
-UPWARDS = 0.0, 0.0, 1.0
+UPWARDS = 0.0, 0.0, 1.0  # in the scene; the scan is turned to stand so
 
 
 class Drawing:

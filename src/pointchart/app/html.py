@@ -5,8 +5,10 @@ from html import escape
 
 from ..report.record import Check, RunReport
 
+# Written into each element, as the panel shows pieces of HTML without a style sheet; paths may break anywhere.
 BOX = "margin:.4em .75em;border-radius:4px;font-size:.85em;line-height:1.45;overflow-wrap:anywhere"
 FRAMED = f"{BOX};padding:.5em .7em"
+# Of a result, in a message and in the refusal of its export alike.
 OTHERWISE = "was made by other options or another loop than those that stand now"
 # Of a check that has passed, has failed, or is a measure.
 MARKS = {True: ("✓", "#2f9e5b"), False: ("✗", "#d0432c"), None: ("·", "inherit")}

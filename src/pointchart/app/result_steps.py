@@ -18,9 +18,11 @@ from .session import Session
 from .step import Step, add_export
 from .step_files import StepFiles
 
+# In the folder of the page, in formats that keep every digit: what is exported is made of them.
 UV_FILE, MESH_FILE, SURFACE_FILE = "uv-found.ply", "mesh-made.ply", "surface-fitted.json"
-SURFACE_SUFFIXES = (*CAD_SUFFIXES, ".json", *MESH_SUFFIXES)
+SURFACE_SUFFIXES = (*CAD_SUFFIXES, ".json", *MESH_SUFFIXES)  # the surface itself first, then triangles of it
 DRAWN, TESSELLATED = 40_000, 100_000  # points of the mesh of a surface: on the session, and in a file
+# The options that have controls, with their labels, in the order of the page.
 DOMAIN = (("domain", "Domain"), ("corners", "Corners"), ("spacing", "Spacing"))
 MESH = (("holes", "Gaps"), *DOMAIN, ("uv", "Parameters"), ("swap", "Edge swaps"))
 SURFACE = (
@@ -37,6 +39,7 @@ SURFACE = (
     ("best_effort", "Best effort"),
 )
 
+# Said in advance, as the command has no option that chooses a part.
 ONE_PART = "UV takes a scan in one part; where there are several, use Mesh with the component largest, or cut the scan."
 
 

@@ -14,7 +14,7 @@ from ..runs.commands import Run
 from ..runs.process import Cancelled, RunProcess
 from ..runs.remedies import sentence
 
-ENDED = "**ended**; start pointchart view again"
+ENDED = "**ended**; start pointchart view again"  # stays on a page whose server has gone
 
 
 class Runner:

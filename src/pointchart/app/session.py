@@ -30,10 +30,10 @@ from .scan_file import ScanFile
 from .step_files import StepFiles
 from .views import Views
 
-LOG = logging.getLogger(__name__)
-BRAND = (38, 99, 140)
+LOG = logging.getLogger(__name__)  # for errors that are ours: the page says that there was one, the terminal which
+BRAND = (38, 99, 140)  # of buttons: dark enough for white words on it
 WIDTH = 460  # pixels of the panel
-LOOP_FILE = "loop.txt"
+LOOP_FILE = "loop.txt"  # the user's own loop, as the commands on the page name it
 RUN = "run"  # folder of the files of a run, which are taken out of it when it has ended well
 LAST = 0.2  # seconds in which the last words reach the browser
 
