@@ -5,7 +5,7 @@ from pathlib import Path
 
 from .errors import InputError
 
-BYTES_A_POINT = 900  # at the peak of a whole run, on top of the scan itself
+BYTES_A_POINT = 900  # at the peak of a whole run, over the scan itself: 790 at a million points, 623 at ten millions
 FEW = 1_000_000  # points that are not worth asking for
 
 

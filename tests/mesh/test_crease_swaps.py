@@ -5,7 +5,6 @@ import pytest
 from comparisons import edges_of
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from pointchart.cli.choices import SWAPS, Swap
 from strategies import planar_discs, rotations, seeds
 
 from pointchart import shapes
@@ -21,6 +20,8 @@ from pointchart.mesh.delaunay_swaps import swap_to_delaunay
 from pointchart.pipeline import reconstruct
 from pointchart.points.neighbors import spacing
 from pointchart.proof.certificate import certify
+from pointchart.runs.choices import SWAPS
+from pointchart.runs.option_values import Swap
 
 
 def bends(points, triangles):

@@ -2,7 +2,7 @@
 
 from .record import Check, RunReport, WrittenFile
 
-MARKS = {True: "[ok]", False: "[!!]", None: "[--]"}
+MARKS = {True: "[ok]", False: "[!!]", None: "[--]"}  # passed, at fault, measured only; of ASCII, for any terminal
 
 
 def as_text(report: RunReport) -> str:

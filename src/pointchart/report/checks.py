@@ -3,6 +3,7 @@
 from ..proof.certificate import Certificate
 from .record import Check
 
+# Of what there must be none: what is said, the field of the certificate that counts, what is said of some.
 COUNTS = (
     ("every point used", "unused_points", "{} unused"),
     ("edges manifold, orientation consistent", "overfull_edges", "{} edges at fault"),

@@ -16,7 +16,7 @@ from ..proof.intersection_places import SelfIntersections
 from ..solve.systems import Solution
 from ..typing import Indices, Points
 
-MOST_PLACES = 10
+MOST_PLACES = 10  # of self-intersections that are named: more are counted, but nobody looks at them one by one
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -9,6 +9,7 @@ from ..surface import deviation_table
 from ..surface.surfacing import SurfacedScan
 from ..typing import Points
 
+# For programs: the names of a deviation table's rows, in its order, without its numbers in them.
 FIGURES = ("max", "max_but_outliers", "percentile_95", "rms", "mean", "share_within_tolerance")
 
 

@@ -28,17 +28,20 @@ from ..points.neighbors import Neighborhoods
 from ..typing import UV, Floats, Indices, Loop, Points
 from .option_values import Chart, Domain, Holes, Neighbors, Spacing, SurfaceDomain, Swap, Weighting
 
+# What each word of an option stands for; whoever adds a word adds it here and to the words themselves.
 WEIGHTS: dict[Weighting, WeightScheme] = {
     Weighting.mean_value: weights.mean_value,
     Weighting.shape_preserving: weights.shape_preserving,
     Weighting.reciprocal: weights.reciprocal_distance,
     Weighting.uniform: weights.uniform,
 }
+# How steps along the boundary are laid out on the domain.
 STEPS: dict[Spacing, Callable[[Points, Loop], Floats]] = {
     Spacing.chord: boundary.chord_length_steps,
     Spacing.uniform: boundary.uniform_steps,
     Spacing.centripetal: boundary.centripetal_steps,
 }
+# Without a word the library decides, by whether the boundary was given.
 GAPS: dict[Holes, GapRule] = {Holes.bridge: gaps.bridge_gaps, Holes.open: gaps.leave_gaps_open}
 SWAPS: dict[Swap, SwapRule] = {
     Swap.delaunay: swaps.swap_to_delaunay,
@@ -48,6 +51,7 @@ SWAPS: dict[Swap, SwapRule] = {
     Swap.curvature: curvature_swaps.swap_to_least_curvature,
     Swap.none: swaps.keep_edges,
 }
+# All but the last are one-to-one, and certified to be.
 CHARTS: dict[Chart, ChartRule] = {
     Chart.mesh: uv_on_mesh,
     Chart.low_stretch: uv_low_stretch,

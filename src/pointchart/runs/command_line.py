@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 def words_of(run: "Run | ViewRun") -> list[str]:
-    """Return the words behind ``pointchart``: the command, its arguments, and the options that are no defaults.
+    """Return the words behind ``pointchart``: the command, arguments, what has to be given, then what is no default.
 
     Examples
     --------
@@ -26,7 +26,7 @@ def words_of(run: "Run | ViewRun") -> list[str]:
     """
     options, values = options_of(type(run)), values_of(run)
     words = [run.command, *(_text(values[option.name]) for option in options if not option.flags)]
-    for option in options:
+    for option in sorted(options, key=lambda option: not option.is_required):
         value = values[option.name]
         if option.flags and value is not None and value != option.default:
             words += _option_words(option, value)

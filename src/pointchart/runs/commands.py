@@ -10,6 +10,7 @@ from .param_run import ParamRun
 from .view_run import ViewRun
 
 Run = MeshRun | ParamRun | BoundaryRun | FitRun | FigureRun | CheckRun | DemoRun
+# In the order in which --help lists the commands.
 RECORDS: dict[str, type[Run | ViewRun]] = {
     record.command: record for record in (MeshRun, ParamRun, BoundaryRun, FitRun, FigureRun, CheckRun, ViewRun, DemoRun)
 }

@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from ..clock import StageClock
     from ..report.record import RunReport
 
+# What each kind of figure can be asked for: options that it has no use for are refused, not passed over.
 OF_SURFACES, ON_MESHES = (Figure.deviation, Figure.zebra), (Figure.mesh, Figure.plane)
 IN_SPACE = (Figure.cloud, Figure.mesh, *OF_SURFACES)
 COLORED = (Figure.cloud, *ON_MESHES)

@@ -13,7 +13,7 @@ from ..errors import PointchartError, SolveError
 from ..report.record import RunReport
 from .commands import Run
 
-PROGRAM = sys.executable, "-P", "-m", "pointchart.runs"
+PROGRAM = sys.executable, "-P", "-m", "pointchart.runs"  # -P: no module of the folder in which it runs is imported
 PATIENCE = 1.0  # seconds that a process has to end by itself
 
 

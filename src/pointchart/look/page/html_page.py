@@ -27,7 +27,8 @@ from .pack import packed, quantized, steps
 from .thinned import Thinned, thin
 
 MOST_POINTS = 200_000  # drawn: what a phone turns smoothly, and some 10 MB
-PAGE_SUFFIXES = (".html", ".htm")
+PAGE_SUFFIXES = (".html", ".htm")  # that browsers open as a page
+# What page.html has places for, by name: a page is one file, so that it opens offline.
 PARTS = ("page.css", "unpack.js", "geometry.js", "gl.js", "scene.js", "tell.js", "page.js")
 
 

@@ -20,7 +20,7 @@ from ..mesh_run import MeshRun
 from .measured import measure_mesh
 from .written import carried, options_facts, page_words, stages_of, untold
 
-HOLD_STRETCH = (".ply", ".npz")
+HOLD_STRETCH = (".ply", ".npz")  # formats that hold any number a vertex: only for them is it measured
 
 
 def execute(run: MeshRun, clock: StageClock) -> RunReport:

@@ -16,7 +16,7 @@ from ..option_values import Unit
 from .written import carried
 
 TESSELLATED = 100_000  # points of the mesh of a surface
-HOLD_DEVIATIONS = (".csv", ".ply", ".npz")
+HOLD_DEVIATIONS = (".csv", ".ply", ".npz")  # formats that hold any number a point
 
 
 def write_surface(out: Path, surfaced: SurfacedScan, unit: Unit) -> None:

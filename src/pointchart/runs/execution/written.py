@@ -63,7 +63,7 @@ def figure_line(out: Path, scan: Path) -> str | None:
     >>> figure_line(Path("mesh.ply"), Path("scan.ply"))
     'pointchart figure mesh mesh.ply -o mesh.pdf'
     >>> figure_line(Path("surface.json"), Path("scan.ply"))
-    'pointchart figure deviation surface.json --points scan.ply -o surface.pdf'
+    'pointchart figure deviation surface.json -o surface.pdf --points scan.ply'
     >>> figure_line(Path("surface.step"), Path("scan.ply"))
     """
     suffix, picture = out.suffix.lower(), out.with_suffix(".pdf")
