@@ -20,6 +20,7 @@ BOX, HEIGHT, LANE, GAP = 136, 34, 20, 16  # a room, and the lane of a line that 
 ROUNDS = 8
 
 Stop = tuple[int, str, str]  # a level with a room twice, or with importer and imported of a line that passes it
+Row = tuple[str, str]
 Graph = dict[str, set[str]]
 
 
@@ -196,6 +197,15 @@ def tables() -> str:
             *("| room | imports |", "|---|---|", *imports, ""),
         ]
     )
+
+
+def every_module() -> list[Row]:
+    """Return each module's path below the package and its purpose: by rooms, kernels after them, then the rest."""
+    paths: list[Path] = []
+    for name in [*graph(), *layers()]:
+        room, kernels = PACKAGE / name, PACKAGE / "_kernels" / name
+        paths += [room] if room.is_file() else [*modules(room), *modules(kernels)]
+    return [(str(path.relative_to(PACKAGE)), purpose(path)) for path in dict.fromkeys(paths)]
 
 
 def _purpose_of(name: str) -> str:

@@ -1,6 +1,7 @@
 """The house rules of CONTRIBUTING.md and docs/developers.md, each as a law over every file."""
 
 import ast
+import re
 import runpy
 import tokenize
 from collections import Counter
@@ -124,3 +125,12 @@ def test_the_rooms_are_drawn_as_they_are(rooms):
     remedy = "rooms have changed: run `make rooms`, look at docs/figures/rooms.svg and commit what it wrote"
     assert rooms["page"](rooms["PAGE"].read_text()) == rooms["PAGE"].read_text(), remedy
     assert rooms["drawing"]() == rooms["PICTURE"].read_text(), remedy
+
+
+def test_every_file_that_the_docs_name_is_there():
+    folders = [ROOT / name for name in ("benchmarks", "docs", "examples", "src", "tests")]
+    there = [f"/{path.relative_to(ROOT)}" for folder in folders for path in folder.rglob("*")]
+    for page in [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *(ROOT / "docs").rglob("*.md")]:
+        named = re.findall(r"`((?:[a-z_]+/)+[a-z_]+|[\w./]+\.py)`", page.read_text())
+        gone = {name for name in named if not any(path.endswith((f"/{name}", f"/{name}.py")) for path in there)}
+        assert not gone, f"{page.name} names {sorted(gone)}"
