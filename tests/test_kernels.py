@@ -557,7 +557,15 @@ CASES = {
         np.zeros(len(STAR.indices)),
     ),
     "morton_curve.morton_keys": lambda: (SHAPE.points, CORNER, (2**21 - 1) / WIDTH, 21, 3, N, ints(N)),
-    "morton_curve.morton_keys in a plane": lambda: (SHAPE.uv, SHAPE.uv.min(axis=0), (2**31 - 1) / 2.0, 31, 0, N, ints(N)),
+    "morton_curve.morton_keys in a plane": lambda: (
+        SHAPE.uv,
+        SHAPE.uv.min(axis=0),
+        (2**31 - 1) / 2.0,
+        31,
+        0,
+        N,
+        ints(N),
+    ),
     "cycles.add_products": lambda: (np.ones(SUMS), 1, PAIR, PAIR[::-1].copy(), 7),
     "cycles.advance": lambda: (
         PAIR.copy(),
@@ -723,9 +731,18 @@ CASES = {
     "agreed_triangles.join_alike full": lambda: joining(len(FACES) - 1),
     "agreed_triangles.join_alike twisted": lambda: joining(len(FACES) - 3),
     "agreed_triangles.keep_manifold": lambda: untaken(),
-    "agreed_triangles.name_edges": lambda: (FACES, ints(len(STRIP.points) + 1), int32s((3 * len(FACES), 2)), int32s(FACES.shape)),
+    "agreed_triangles.name_edges": lambda: (
+        FACES,
+        ints(len(STRIP.points) + 1),
+        int32s((3 * len(FACES), 2)),
+        int32s(FACES.shape),
+    ),
     "agreed_triangles.put_beside": lambda: (RAGGED.sides.copy(), int(np.flatnonzero(RAGGED.sides[:, 1] < 0)[0]), 5),
-    "agreed_triangles.root_of": lambda: (np.array([0, 0, 1, 2, 3], np.int32), np.array([False, True, True, False, True]), 4),
+    "agreed_triangles.root_of": lambda: (
+        np.array([0, 0, 1, 2, 3], np.int32),
+        np.array([False, True, True, False, True]),
+        4,
+    ),
     "agreed_triangles.turn_alike": lambda: (taken()[0], taken()[3], *taken()[5:]),
     "agreed_triangles.walk_rims": lambda: (
         RAGGED.ends,

@@ -6,7 +6,7 @@ import re
 import numpy as np
 import pytest
 
-from pointchart.chart.on_mesh import uv_free_boundary
+from pointchart.chart.free_boundary import uv_free_boundary
 from pointchart.surface import BSplineSurface, Deviation, Fit, Level
 from pointchart.surface.surfacing import SurfacedScan
 from pointchart.surface_report import explain_lines, surface_lines, surface_report

@@ -14,15 +14,8 @@ from .clock import StageClock
 from .gaps.bridges import Bridge
 from .gaps.rules import place_of
 from .io import replacing
-from .mesh.quality import (
-    area_distortions,
-    areas,
-    conformal_distortions,
-    l2_stretch,
-    least_distance,
-    linf_stretch,
-    radius_ratios,
-)
+from .mesh.distortion import area_distortions, conformal_distortions, l2_stretch, least_distance, linf_stretch
+from .mesh.quality import areas, radius_ratios
 from .pipeline import Reconstruction
 from .proof.certificate import Certificate
 from .proof.intersections import places_of, self_intersections

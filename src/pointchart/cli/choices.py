@@ -8,7 +8,10 @@ import numpy as np
 import typer
 
 from .. import boundary
-from ..chart import on_mesh as chart
+from ..chart.free_boundary import uv_free_boundary
+from ..chart.low_stretch import uv_low_stretch
+from ..chart.of_points import uv_of_points
+from ..chart.on_mesh import uv_on_mesh
 from ..chart.rule import ChartRule
 from ..gaps import rules as gaps
 from ..gaps.rules import GapRule
@@ -46,10 +49,10 @@ SWAPS: dict[Swap, SwapRule] = {
     Swap.none: swaps.keep_edges,
 }
 CHARTS: dict[Chart, ChartRule] = {
-    Chart.mesh: chart.uv_on_mesh,
-    Chart.low_stretch: chart.uv_low_stretch,
-    Chart.free: chart.uv_free_boundary,
-    Chart.paper: chart.uv_of_points,
+    Chart.mesh: uv_on_mesh,
+    Chart.low_stretch: uv_low_stretch,
+    Chart.free: uv_free_boundary,
+    Chart.paper: uv_of_points,
 }
 
 

@@ -163,7 +163,7 @@ def _draw_scan(kind: Figure, out: Path, source: Path, color: str | None, look: d
 def _values(source: Path, read: Scan, name: str) -> NDArray[Any]:
     """Return what a file has for each point by a name; stretch is measured where it is not in the file."""
     from ..errors import InputError
-    from ..mesh.quality import vertex_stretches
+    from ..mesh.distortion import vertex_stretches
     from .inputs import uv_of
 
     if name in read.attributes:

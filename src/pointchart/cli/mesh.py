@@ -56,7 +56,7 @@ def mesh(
     from ..errors import points_called
     from ..io import MESH_SUFFIXES, check_digits, write_mesh
     from ..look.page import lay_out, writing_page
-    from ..mesh.quality import vertex_stretches
+    from ..mesh.distortion import vertex_stretches
     from ..pipeline import reconstruct
     from ..report import boundary_lines, certificate_lines, intersection_lines, run_report, summary, writing_json
     from .choices import CHARTS, GAPS, SWAPS, connect_rule, corner_names, layout_rule, outer_place, weights_rule

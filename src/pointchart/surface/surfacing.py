@@ -6,7 +6,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .._check import check_points
-from ..chart.on_mesh import uv_free_boundary, uv_low_stretch
+from ..chart.free_boundary import uv_free_boundary
+from ..chart.low_stretch import uv_low_stretch
 from ..chart.rule import Chart
 from ..clock import StageClock
 from ..errors import InputError, SolveError

@@ -5,7 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...boundary.bounded import survey_scan
-from ...mesh.quality import area_vectors, vertex_stretches
+from ...mesh.distortion import vertex_stretches
+from ...mesh.quality import area_vectors
 from ...typing import UV, Floats, Loop, Points, Triangles
 
 SAME = 1e-9

@@ -5,7 +5,8 @@ from typing import Any
 import numpy as np
 
 from ...mesh.connectivity import half_edges
-from ...mesh.quality import conformal_distortions, edge_lengths, radius_ratios, smallest_angles
+from ...mesh.distortion import conformal_distortions
+from ...mesh.quality import edge_lengths, radius_ratios, smallest_angles
 from ...typing import UV, Floats, Points, Triangles
 
 BINS = 40
