@@ -77,7 +77,8 @@ class Modules(Directive):
         listed = runpy.run_path(str(Path(__file__).parents[1] / "rooms.py"))["every_module"]()
         lines = [".. list-table::", "   :widths: 40 60", ""]
         for path, purpose in listed:
-            lines += [f"   * - ``{path}``", f"     - {purpose}"]
+            words = purpose.replace("``", "`").replace("`", "``")
+            lines += [f"   * - ``{path}``", f"     - {words}"]
         return parsed(self, [*lines, ""])
 
 
