@@ -22,12 +22,10 @@ from .boundary import (
 )
 from .proof.certificate import Certificate as Certificate, certify as certify
 from .chart.rule import Chart as Chart
-from .chart.on_mesh import (
-    uv_free_boundary as uv_free_boundary,
-    uv_low_stretch as uv_low_stretch,
-    uv_of_points as uv_of_points,
-    uv_on_mesh as uv_on_mesh,
-)
+from .chart.free_boundary import uv_free_boundary as uv_free_boundary
+from .chart.low_stretch import uv_low_stretch as uv_low_stretch
+from .chart.of_points import uv_of_points as uv_of_points
+from .chart.on_mesh import uv_on_mesh as uv_on_mesh
 from .clock import StageClock as StageClock
 from .points.parts import largest_component as largest_component
 from .mesh.crease_swaps import (
@@ -75,13 +73,13 @@ from .pipeline import (
     reconstruct as reconstruct,
 )
 from .points.cloud import Cloud as Cloud, prepare as prepare
-from .mesh.quality import (
+from .mesh.quality import radius_ratios as radius_ratios
+from .mesh.distortion import (
     area_distortions as area_distortions,
     conformal_distortions as conformal_distortions,
     l2_stretch as l2_stretch,
     least_distance as least_distance,
     linf_stretch as linf_stretch,
-    radius_ratios as radius_ratios,
     stretches as stretches,
     vertex_stretches as vertex_stretches,
 )

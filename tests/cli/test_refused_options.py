@@ -106,23 +106,23 @@ def test_corners_off_the_boundary_are_named_by_the_rows_of_the_file_whatever_is_
 
 
 @pytest.mark.parametrize("holes", [-1, "one", 0.5])
-def test_a_number_of_holes_that_is_none_is_wrong_usage(run, sheet, holes):
-    code, err = run("check", sheet, "--holes", holes)
+def test_a_number_of_holes_that_is_none_is_wrong_usage(attempt, sheet, holes):
+    code, err = attempt("check", sheet, "--holes", holes)
     assert code == 2
     assert "--holes" in err
 
 
-def test_a_report_never_replaces_what_is_checked(run, folder, sheet):
-    run("mesh", sheet, "-o", "mesh.ply", "--quiet")
+def test_a_report_never_replaces_what_is_checked(attempt, folder, sheet):
+    attempt("mesh", sheet, "-o", "mesh.ply", "--quiet")
     for report in ("mesh.ply", sheet):
         before = (folder / report).read_bytes()
-        code, err = run("check", "mesh.ply", "--points", sheet, "--report", report)
+        code, err = attempt("check", "mesh.ply", "--points", sheet, "--report", report)
         assert code == 1
         assert "the suffix '.ply' cannot be written here; choose one of .json" in err
         assert (folder / report).read_bytes() == before
 
 
-def test_a_demo_in_an_impossible_folder_is_refused(run, sheet):
-    code, err = run("demo", "-o", f"{sheet}/inside")
+def test_a_demo_in_an_impossible_folder_is_refused(attempt, sheet):
+    code, err = attempt("demo", "-o", f"{sheet}/inside")
     assert code == 1
     assert "the folder cannot be made" in err

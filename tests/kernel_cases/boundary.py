@@ -1,6 +1,7 @@
 """Arguments for every kernel of the room `boundary`."""
 
 import numpy as np
+
 from kernel_cases.samples import AROUND, NORMALS, SHAPE, N
 
 CASES = {

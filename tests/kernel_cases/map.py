@@ -1,6 +1,7 @@
 """Arguments for every kernel of the room `map`."""
 
 import numpy as np
+
 from kernel_cases.samples import SHAPE, STAR, N
 
 CASES = {

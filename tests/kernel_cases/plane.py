@@ -1,6 +1,7 @@
 """Arguments for every kernel of the room `plane`."""
 
 import numpy as np
+
 from kernel_cases.samples import CUBICS, SHAPE, ints
 
 PENTAGRAM = np.array([[np.cos(t), np.sin(t)] for t in np.arange(5) * 0.8 * np.pi])

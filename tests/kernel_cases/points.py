@@ -1,8 +1,8 @@
 """Arguments for every kernel of the room `points`."""
 
 import numpy as np
-from kernel_cases.samples import AROUND, NORMALS, SHAPE, N, bools, ints
 
+from kernel_cases.samples import AROUND, NORMALS, SHAPE, N, bools, ints
 from pointchart._kernels.points import box_tree, inversion
 
 ROUND = np.arange(6) + 0.3

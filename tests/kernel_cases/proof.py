@@ -1,8 +1,8 @@
 """Arguments for every kernel of the room `proof`."""
 
 import numpy as np
-from kernel_cases.samples import SHAPE, ints
 
+from kernel_cases.samples import SHAPE, ints
 from pointchart.proof.intersections import box_tree
 
 SPANS = np.array([[0.0, 0, 0], [4, 0, 0], [0, 4, 0], [1, 1, -1], [1, 1, 1], [9, 9, 0], [5, 5, 0], [6, 5, 0], [5, 6, 0]])

@@ -1,8 +1,8 @@
 """Arguments for every kernel of the room `surface`."""
 
 import numpy as np
-from kernel_cases.samples import CUBICS, FAR, SHAPE, N, draft_in_plane, ints
 
+from kernel_cases.samples import CUBICS, FAR, SHAPE, N, draft_in_plane, ints
 from pointchart.surface import fit_radial
 
 SPLINES = fit_radial(SHAPE.points, SHAPE.uv, nearby=20)
