@@ -6,7 +6,8 @@ from strategies import clouds, rotations, seeds
 
 from pointchart.errors import InputError
 from pointchart.points.neighbors import BoxTree, ball, from_pairs, nearest, rectangular, spacing
-from pointchart.points.stars import break_ties, delaunay_star, normals
+from pointchart.points.stars import delaunay_star, normals
+from pointchart.points.ties import break_ties
 from pointchart.shapes import bent_sheet, disc, grid, hemisphere
 
 

@@ -136,7 +136,7 @@ def survey_scan(
             raise InputError("both a boundary and a place of the boundary are given; give one of them")
     with points_called(cloud.rows):
         with clock("neighbours"):
-            vicinity = explore(cloud.points)
+            vicinity = explore(cloud.points, keys=cloud.keys)
         with clock("boundary"):
             if given is None:
                 found = find_boundary(cloud.points, vicinity=vicinity)

@@ -7,8 +7,9 @@ from numpy.typing import ArrayLike
 
 from .._check import check_points
 from .._parallel import over_ranges
-from ..typing import Indices, Points
+from ..typing import Indices, Keys, Points
 from .morton import morton_keys
+from .ties import tie_keys
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -25,12 +26,15 @@ class Cloud:
         The point that each of the N rows of the scan gave.
     scale : float
         Length 1 of the cloud in the unit of the scan; a power of two.
+    keys : (n,) uint64
+        A hash of each point's coordinates in the scan, by which ties are broken: the same in any part of the scan.
     """
 
     points: Points
     rows: Indices
     places: Indices
     scale: float
+    keys: Keys
 
     @property
     def n_repeated(self) -> int:
@@ -76,7 +80,7 @@ def prepare(points: ArrayLike) -> Cloud:
     distinct = check_points(scan[rows])
     centered = _centered(distinct)
     exponent = int(np.ceil(np.log2(max(centered.max(), -centered.min()))))
-    return Cloud(np.ldexp(centered, -exponent), rows, places[first], 2.0**exponent)
+    return Cloud(np.ldexp(centered, -exponent), rows, places[first], 2.0**exponent, tie_keys(distinct))
 
 
 def _centered(points: Points) -> Points:
