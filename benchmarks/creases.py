@@ -159,7 +159,7 @@ def measure(surface: Surface, shape: Shape) -> Floats:
     delaunay = swap_to_delaunay(shape.points, shape.triangles).triangles
     figures = []
     for swap in SWAPS.values():
-        start = shape.triangles if swap in (keep_edges, swap_to_delaunay) else delaunay
+        start = delaunay if swap not in (keep_edges, swap_to_delaunay) else shape.triangles
         triangles = swap(shape.points, start).triangles
         certificate = certify(shape.points, triangles)
         assert certificate.is_disc, certificate.faults

@@ -24,8 +24,8 @@ from scipy.spatial import cKDTree
 from pointchart.boundary.layout import chord_length_steps, on_circle
 from pointchart.mesh.connectivity import half_edges
 from pointchart.mesh.delaunay_swaps import swap_to_delaunay
+from pointchart.mesh.distortion import least_distance
 from pointchart.mesh.planar_delaunay import triangulate
-from pointchart.mesh.quality import least_distance
 from pointchart.points.neighbors import ball, spacing
 from pointchart.proof.certificate import certify
 from pointchart.shapes import Shape, add_noise

@@ -20,7 +20,7 @@ def draw(meshes, shares):
     """Draw the parameters of each method."""
     panels = plt.subplots(1, 3, figsize=(9, 3.4), layout="constrained")[1]
     for axes, (name, mesh) in zip(panels, meshes.items(), strict=True):
-        axes.triplot(*mesh.evidence.chart.uv.T, color="#22303c", linewidth=0.3)
+        axes.triplot(*mesh.uv.T, color="#22303c", linewidth=0.3)
         axes.set(title=f"method {name}: {shares[name]:.0%}", aspect="equal")
         axes.set_axis_off()
 

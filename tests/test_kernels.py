@@ -230,11 +230,11 @@ def swept():
 
 
 CASES = {
-    "assemble.add_ear": lambda: (*pocket_of(HOLED)[:2], *pocket_of(HOLED)[2][:2].tolist(), M),
-    "assemble.along_rim": lambda: (TORN.twins, int(np.flatnonzero(TORN.twins < 0)[3])),
-    "assemble.cap": lambda: (SHAPE.points, *pocket_of(GAPPED)),
-    "assemble.cap around one point": lambda: (SHAPE.points, *pocket_of(HOLED)),
-    "assemble.close_loop": lambda: (
+    "pockets.add_ear": lambda: (*pocket_of(HOLED)[:2], *pocket_of(HOLED)[2][:2].tolist(), M),
+    "pockets.along_rim": lambda: (TORN.twins, int(np.flatnonzero(TORN.twins < 0)[3])),
+    "pockets.cap": lambda: (SHAPE.points, *pocket_of(GAPPED)),
+    "pockets.cap around one point": lambda: (SHAPE.points, *pocket_of(HOLED)),
+    "pockets.close_loop": lambda: (
         EDGES.origins,
         np.arange(N, dtype=np.int32),
         np.arange(9),
@@ -245,10 +245,10 @@ CASES = {
         1,
         3,
     ),
-    "assemble.cut_walks": lambda: walks_of(TORN),
-    "assemble.drop_closed_fan": lambda: (EDGES.twins, int(FIRST[ASTRAY]), ~bools(M)),
-    "assemble.drop_fan": lambda: (TORN.twins, int(np.flatnonzero(TORN.twins < 0)[3]), ~bools(M)),
-    "assemble.ear_cost": lambda: (
+    "pockets.cut_walks": lambda: walks_of(TORN),
+    "pockets.drop_closed_fan": lambda: (EDGES.twins, int(FIRST[ASTRAY]), ~bools(M)),
+    "pockets.drop_fan": lambda: (TORN.twins, int(np.flatnonzero(TORN.twins < 0)[3]), ~bools(M)),
+    "pockets.ear_cost": lambda: (
         SHAPE.points,
         *pocket_of(GAPPED)[:3],
         np.arange(len(pocket_of(GAPPED)[2])),
@@ -256,19 +256,19 @@ CASES = {
         1,
         False,
     ),
-    "assemble.goes_before": lambda: (np.array([1.0, 1.0]), bools(2), 0, 1),
-    "assemble.goes_before a bad one": lambda: (np.array([2.0, 1.0]), np.array([False, True]), 0, 1),
-    "assemble.is_over": lambda: (np.eye(4, 3), 3, 0, 1, 2, 1.0, 1.0, 1.0),
-    "assemble.is_over not": lambda: (np.eye(4, 3) - np.eye(4, 3, -3), 3, 0, 1, 2, 1.0, 1.0, 1.0),
-    "assemble.fan_size": lambda: (
+    "pockets.goes_before": lambda: (np.array([1.0, 1.0]), bools(2), 0, 1),
+    "pockets.goes_before a bad one": lambda: (np.array([2.0, 1.0]), np.array([False, True]), 0, 1),
+    "pockets.is_over": lambda: (np.eye(4, 3), 3, 0, 1, 2, 1.0, 1.0, 1.0),
+    "pockets.is_over not": lambda: (np.eye(4, 3) - np.eye(4, 3, -3), 3, 0, 1, 2, 1.0, 1.0, 1.0),
+    "pockets.fan_size": lambda: (
         TORN.origins,
         TORN.twins,
         int(np.flatnonzero(TORN.twins < 0)[3]),
         int(SHAPE.boundary[0]),
         int(SHAPE.boundary[2]),
     ),
-    "assemble.keep_largest": lambda: (TORN.twins, np.arange(len(TORN.twins) // 3) % 9 > 0),
-    "assemble.mark_pinching": lambda: (
+    "pockets.keep_largest": lambda: (TORN.twins, np.arange(len(TORN.twins) // 3) % 9 > 0),
+    "pockets.mark_pinching": lambda: (
         TORN.origins,
         TORN.twins,
         rims_of(TORN),
@@ -277,8 +277,8 @@ CASES = {
         int32s(N) - 1,
         ~bools(len(TORN.twins) // 3),
     ),
-    "assemble.mark_rims": lambda: (TORN.twins, int32s(len(TORN.twins))),
-    "assemble.to_half_edges": lambda: (
+    "pockets.mark_rims": lambda: (TORN.twins, int32s(len(TORN.twins))),
+    "pockets.to_half_edges": lambda: (
         RAGGED.triangles,
         RAGGED.edge_of,
         RAGGED.sides,
@@ -286,11 +286,11 @@ CASES = {
         int32s(3 * M),
         int32s(3 * M),
     ),
-    "bsplines.basis": lambda: (KNOTS_U, 3, 4, 0.1, 2, np.zeros((3, 4)), np.zeros((4, 4)), np.zeros((2, 4))),
-    "bsplines.basis_rows": lambda: (KNOTS_U, 3, SHAPE.uv[:, 0].copy(), 1, np.zeros((N, 4)), ints((N, 4))),
-    "bsplines.evaluate": lambda: (KNOTS_U, KNOTS_V, 3, CONTROL, SHAPE.uv, 1, 2, 0, N, np.zeros((N, 3))),
-    "bsplines.find_span": lambda: (KNOTS_U, 3, 0.3),
-    "bsplines.gather": lambda: (
+    "bspline_basis.basis": lambda: (KNOTS_U, 3, 4, 0.1, 2, np.zeros((3, 4)), np.zeros((4, 4)), np.zeros((2, 4))),
+    "bspline_basis.basis_rows": lambda: (KNOTS_U, 3, SHAPE.uv[:, 0].copy(), 1, np.zeros((N, 4)), ints((N, 4))),
+    "bspline_basis.evaluate": lambda: (KNOTS_U, KNOTS_V, 3, CONTROL, SHAPE.uv, 1, 2, 0, N, np.zeros((N, 3))),
+    "bspline_basis.find_span": lambda: (KNOTS_U, 3, 0.3),
+    "bspline_basis.gather": lambda: (
         KNOTS_U,
         KNOTS_V,
         3,
@@ -300,9 +300,9 @@ CASES = {
         np.zeros((35, 7, 7)),
         np.zeros((35, 3)),
     ),
-    "clough_tocher.contract": lambda: (SHAPE.points[:10].copy(), 3, 0.2, 0.5, 0.3),
-    "clough_tocher.coordinates": lambda: (SHAPE.uv, SHAPE.triangles[5], 0.1, 0.2, np.zeros((3, 3))),
-    "clough_tocher.evaluate": lambda: (
+    "clough_tocher_element.contract": lambda: (SHAPE.points[:10].copy(), 3, 0.2, 0.5, 0.3),
+    "clough_tocher_element.coordinates": lambda: (SHAPE.uv, SHAPE.triangles[5], 0.1, 0.2, np.zeros((3, 3))),
+    "clough_tocher_element.evaluate": lambda: (
         CUBICS.uv,
         CUBICS.triangles,
         CUBICS.boxes,
@@ -317,7 +317,7 @@ CASES = {
         N,
         np.zeros((N, 3)),
     ),
-    "clough_tocher.write_net": lambda: (
+    "clough_tocher_element.write_net": lambda: (
         CUBICS.points,
         CUBICS.gradients,
         CUBICS.uv,
@@ -512,14 +512,14 @@ CASES = {
         ints(RINGS.indptr[-1]),
         bools(N),
     ),
-    "intersections.side": lambda: (SHAPE.points, 0, 1, 2, 3),
-    "intersections.sides_of": lambda: (SPANS, (0, 1, 2), (3, 4, 5)),
-    "intersections.pierces": lambda: (SPANS, (3, 4, 5), (-1, 1, 0), (0, 1, 2)),
-    "intersections.is_apart_in_plane": lambda: (SPANS, (0, 1, 2), (6, 7, 8), 0, 1),
-    "intersections.meet": lambda: (SPANS, (0, 1, 2), (3, 4, 5)),
-    "intersections.overlap": lambda: (SPAN_BOXES, 3, (0.5, 0.5, -0.5, 2.0, 2.0, 0.5)),
-    "intersections.find_meetings": lambda: (SPANS, np.arange(9).reshape(3, 3), SPAN_BOXES, 0, 3, ints((2, 3))),
-    "links.are_adjacent": lambda: (
+    "triangle_meetings.side": lambda: (SHAPE.points, 0, 1, 2, 3),
+    "triangle_meetings.sides_of": lambda: (SPANS, (0, 1, 2), (3, 4, 5)),
+    "triangle_meetings.pierces": lambda: (SPANS, (3, 4, 5), (-1, 1, 0), (0, 1, 2)),
+    "triangle_meetings.is_apart_in_plane": lambda: (SPANS, (0, 1, 2), (6, 7, 8), 0, 1),
+    "triangle_meetings.meet": lambda: (SPANS, (0, 1, 2), (3, 4, 5)),
+    "triangle_meetings.overlap": lambda: (SPAN_BOXES, 3, (0.5, 0.5, -0.5, 2.0, 2.0, 0.5)),
+    "triangle_meetings.find_meetings": lambda: (SPANS, np.arange(9).reshape(3, 3), SPAN_BOXES, 0, 3, ints((2, 3))),
+    "link_trust.are_adjacent": lambda: (
         STAR.indptr,
         STAR.indices,
         STAR.is_open,
@@ -527,12 +527,12 @@ CASES = {
         int(STAR.indices[0]),
         int(STAR.indices[1]),
     ),
-    "links.agreement": lambda: (STAR.indptr, STAR.indices, STAR.is_open, 0, N, bools(len(STAR.indices))),
-    "links.is_around": lambda: (draft(), int(SHAPE.boundary[0]), int(SHAPE.boundary[1])),
-    "links.is_around an inner point": lambda: (draft(), ASTRAY, int(SHAPE.boundary[1])),
-    "links.is_beyond": lambda: (draft(), int(SHAPE.boundary[0]), int(SHAPE.boundary[2])),
-    "links.is_beyond an inner point": lambda: (draft(), ASTRAY, int(SHAPE.boundary[1])),
-    "links.mark_far": lambda: (
+    "link_trust.agreement": lambda: (STAR.indptr, STAR.indices, STAR.is_open, 0, N, bools(len(STAR.indices))),
+    "link_trust.is_around": lambda: (draft(), int(SHAPE.boundary[0]), int(SHAPE.boundary[1])),
+    "link_trust.is_around an inner point": lambda: (draft(), ASTRAY, int(SHAPE.boundary[1])),
+    "link_trust.is_beyond": lambda: (draft(), int(SHAPE.boundary[0]), int(SHAPE.boundary[2])),
+    "link_trust.is_beyond an inner point": lambda: (draft(), ASTRAY, int(SHAPE.boundary[1])),
+    "link_trust.mark_far": lambda: (
         mixed_draft(),
         *AROUND.table,
         2,
@@ -545,8 +545,8 @@ CASES = {
     "locate.find_triangle": lambda: (CUBICS.uv, CUBICS.triangles, CUBICS.boxes, 0.1, 0.2, 1e-15),
     "locate.holds": lambda: (CUBICS.boxes, 1, 0.1, 0.2, 0.0),
     "locate.next_box": lambda: (11,),
-    "mean_value.half_angle_tangent": lambda: (SHAPE.points, 0, 1, 2),
-    "mean_value.mean_value": lambda: (
+    "mean_value_weights.half_angle_tangent": lambda: (SHAPE.points, 0, 1, 2),
+    "mean_value_weights.mean_value": lambda: (
         SHAPE.points,
         STAR.indptr,
         STAR.indices,
@@ -556,10 +556,18 @@ CASES = {
         N,
         np.zeros(len(STAR.indices)),
     ),
-    "morton.morton_keys": lambda: (SHAPE.points, CORNER, (2**21 - 1) / WIDTH, 21, 3, N, ints(N)),
-    "morton.morton_keys in a plane": lambda: (SHAPE.uv, SHAPE.uv.min(axis=0), (2**31 - 1) / 2.0, 31, 0, N, ints(N)),
-    "multigrid.add_products": lambda: (np.ones(SUMS), 1, PAIR, PAIR[::-1].copy(), 7),
-    "multigrid.advance": lambda: (
+    "morton_curve.morton_keys": lambda: (SHAPE.points, CORNER, (2**21 - 1) / WIDTH, 21, 3, N, ints(N)),
+    "morton_curve.morton_keys in a plane": lambda: (
+        SHAPE.uv,
+        SHAPE.uv.min(axis=0),
+        (2**31 - 1) / 2.0,
+        31,
+        0,
+        N,
+        ints(N),
+    ),
+    "cycles.add_products": lambda: (np.ones(SUMS), 1, PAIR, PAIR[::-1].copy(), 7),
+    "cycles.advance": lambda: (
         PAIR.copy(),
         PAIR[::-1].copy(),
         np.array([0.3, -2.0]),
@@ -570,8 +578,8 @@ CASES = {
         0,
         N_LONG,
     ),
-    "multigrid.find_rest": lambda: (*swept()[:4], SINGLES, np.zeros_like(SINGLES), *ROWS),
-    "multigrid.multiply": lambda: (
+    "cycles.find_rest": lambda: (*swept()[:4], SINGLES, np.zeros_like(SINGLES), *ROWS),
+    "cycles.multiply": lambda: (
         *light(BAND.indptr, BAND.indices, BAND.data),
         SINGLES,
         np.zeros_like(PAIR),
@@ -580,8 +588,8 @@ CASES = {
         0,
         N_LONG,
     ),
-    "multigrid.prolong": lambda: (*HALVED, SINGLES[::2].copy(), SINGLES.copy(), *ROWS),
-    "multigrid.redirect": lambda: (
+    "cycles.prolong": lambda: (*HALVED, SINGLES[::2].copy(), SINGLES.copy(), *ROWS),
+    "cycles.redirect": lambda: (
         PAIR.copy(),
         PAIR[::-1].copy(),
         PAIR - 1,
@@ -589,11 +597,11 @@ CASES = {
         np.array([0.5, 0.0]),
         *ROWS,
     ),
-    "multigrid.restrict": lambda: (*in_rows(BAND), SINGLES, np.zeros_like(SINGLES), *ROWS),
-    "multigrid.sweep_backward": lambda: (*swept(), SINGLES, SINGLES[::-1].copy(), np.zeros_like(SINGLES), *ROWS),
-    "multigrid.sweep_forward": lambda: (*swept(), SINGLES, np.zeros_like(SINGLES), *ROWS),
-    "nearest.bound_boxes": lambda: (SHAPE.points, np.zeros((16, 3)), np.zeros((16, 3))),
-    "nearest.find_nearest": lambda: (
+    "cycles.restrict": lambda: (*in_rows(BAND), SINGLES, np.zeros_like(SINGLES), *ROWS),
+    "cycles.sweep_backward": lambda: (*swept(), SINGLES, SINGLES[::-1].copy(), np.zeros_like(SINGLES), *ROWS),
+    "cycles.sweep_forward": lambda: (*swept(), SINGLES, np.zeros_like(SINGLES), *ROWS),
+    "box_tree.bound_boxes": lambda: (SHAPE.points, np.zeros((16, 3)), np.zeros((16, 3))),
+    "box_tree.find_nearest": lambda: (
         SHAPE.points,
         LOW,
         HIGH,
@@ -601,15 +609,15 @@ CASES = {
         np.zeros((N, 9), np.uint32),
         np.zeros((N, 9)),
     ),
-    "nearest.middle_distances": lambda: (SHAPE.points, *AROUND.table, 3, 4, 0, N, np.zeros(N)),
-    "nearest.square_to_box": lambda: (LOW, HIGH, 9, 0.1, -0.2, 2.0),
+    "box_tree.middle_distances": lambda: (SHAPE.points, *AROUND.table, 3, 4, 0, N, np.zeros(N)),
+    "box_tree.square_to_box": lambda: (LOW, HIGH, 9, 0.1, -0.2, 2.0),
     "peel.peel": lambda: (EDGES.origins, EDGES.twins, SUCCESSOR, ints(len(EDGES.origins)), bools(len(SHAPE.triangles))),
-    "planes.smallest_eigenvector": lambda: (3.0, 0.2, 0.1, 2.0, -0.3, 1.0),
-    "planes.tangent_frame": lambda: (0.48, 0.6, -0.64),
-    "planes.fit_planes": lambda: (SHAPE.points, *AROUND.table, 0.8, 0, N, np.zeros((N, 3)), np.zeros(N)),
-    "radial.add_product": lambda: (np.arange(6.0), np.arange(24.0).reshape(6, 4), np.ones((6, 4))),
-    "radial.divide": lambda: (np.arange(1.0, 25.0).reshape(6, 4),),
-    "radial.evaluate": lambda: (
+    "tangent_planes.smallest_eigenvector": lambda: (3.0, 0.2, 0.1, 2.0, -0.3, 1.0),
+    "tangent_planes.tangent_frame": lambda: (0.48, 0.6, -0.64),
+    "tangent_planes.fit_planes": lambda: (SHAPE.points, *AROUND.table, 0.8, 0, N, np.zeros((N, 3)), np.zeros(N)),
+    "radial_blend.add_product": lambda: (np.arange(6.0), np.arange(24.0).reshape(6, 4), np.ones((6, 4))),
+    "radial_blend.divide": lambda: (np.arange(1.0, 25.0).reshape(6, 4),),
+    "radial_blend.evaluate": lambda: (
         SPLINES.domain,
         SPLINES.discs,
         SPLINES.boxes,
@@ -621,8 +629,8 @@ CASES = {
         N,
         np.zeros((N, 3)),
     ),
-    "radial.start_jet": lambda: (SHAPE.points[:6], 0.1, 0.2, np.zeros((6, 4))),
-    "radial.surface_jet": lambda: (
+    "radial_blend.start_jet": lambda: (SHAPE.points[:6], 0.1, 0.2, np.zeros((6, 4))),
+    "radial_blend.surface_jet": lambda: (
         SPLINES.centres[0],
         SPLINES.coefficients[0],
         0.1,
@@ -631,12 +639,12 @@ CASES = {
         2,
         np.zeros((6, 4)),
     ),
-    "radial.weight_jet": lambda: (0.1, 0.2, 0.5, np.zeros(6)),
-    "recover.edge_towards": lambda: (draft(), SHAPE.uv, 0, 40),
-    "recover.recover": lambda: (mixed_draft(), SHAPE.uv, RINGS.rows, RINGS.indices),
-    "recover.recover_one": lambda: (draft(), SHAPE.uv, 0, 40),
-    "recover.side": lambda: (SHAPE.uv, 0, 1, 2),
-    "recover.swappable": lambda: (
+    "radial_blend.weight_jet": lambda: (0.1, 0.2, 0.5, np.zeros(6)),
+    "recover_edges.edge_towards": lambda: (draft(), SHAPE.uv, 0, 40),
+    "recover_edges.recover": lambda: (mixed_draft(), SHAPE.uv, RINGS.rows, RINGS.indices),
+    "recover_edges.recover_one": lambda: (draft(), SHAPE.uv, 0, 40),
+    "recover_edges.side": lambda: (SHAPE.uv, 0, 1, 2),
+    "recover_edges.swappable": lambda: (
         draft(),
         SHAPE.uv,
         0,
@@ -644,11 +652,11 @@ CASES = {
         recover.edge_towards.py_func(draft(), SHAPE.uv, 0, 40),
         (-1, -1),
     ),
-    "quality.distance": lambda: (SHAPE.points, 3, 5),
-    "quality.measure_areas": lambda: (SHAPE.points, SHAPE.triangles, 2, 9, np.zeros(12)),
-    "quality.measure_plane_areas": lambda: (SHAPE.points[:, :2].copy(), SHAPE.triangles, 2, 9, np.zeros(12)),
-    "quality.measure_shapes": lambda: (SHAPE.points, SHAPE.triangles, 2, 9, np.zeros(12)),
-    "quality.measure_stretches": lambda: (
+    "triangle_shapes.distance": lambda: (SHAPE.points, 3, 5),
+    "triangle_shapes.measure_areas": lambda: (SHAPE.points, SHAPE.triangles, 2, 9, np.zeros(12)),
+    "triangle_shapes.measure_plane_areas": lambda: (SHAPE.points[:, :2].copy(), SHAPE.triangles, 2, 9, np.zeros(12)),
+    "triangle_shapes.measure_shapes": lambda: (SHAPE.points, SHAPE.triangles, 2, 9, np.zeros(12)),
+    "triangle_shapes.measure_stretches": lambda: (
         SHAPE.points,
         SHAPE.triangles,
         SHAPE.points[:, :2].copy(),
@@ -658,10 +666,10 @@ CASES = {
         np.zeros(12),
         np.zeros(12),
     ),
-    "relocate.cheapest_place": lambda: (draft(), 3, np.array([20, 21, 22])),
-    "relocate.descend": lambda: (mixed_draft(), 0, np.resize(np.arange(3 * M), relocate.STACK), 3 * M, 1e-9),
-    "relocate.put_in": lambda: (draft(), 0, ASTRAY, 0, 1, 2),
-    "relocate.relocate": lambda: (
+    "put_back.cheapest_place": lambda: (draft(), 3, np.array([20, 21, 22])),
+    "put_back.descend": lambda: (mixed_draft(), 0, np.resize(np.arange(3 * M), relocate.STACK), 3 * M, 1e-9),
+    "put_back.put_in": lambda: (draft(), 0, ASTRAY, 0, 1, 2),
+    "put_back.relocate": lambda: (
         mixed_draft(),
         np.arange(N, dtype=np.int32),
         ~bools(N),
@@ -672,23 +680,23 @@ CASES = {
         3 * N,
         bools(N),
     ),
-    "relocate.relocate_one": lambda: (
+    "put_back.relocate_one": lambda: (
         mixed_draft(),
         ASTRAY,
         AROUND.indices[9 * ASTRAY :][:9],
         ints(relocate.STACK),
         1e-9,
     ),
-    "relocate.take_out": lambda: thinned_out(),
-    "relocate.thin_out": lambda: (draft(), ASTRAY, drafts.inner_degree.py_func(draft(), ASTRAY)),
-    "rims.add_corner_angles": lambda: (SHAPE.points, unsigned(RAGGED.triangles), np.zeros(N)),
-    "rims.circumradius": lambda: (SHAPE.points, 0, 1, 2),
-    "rims.close_up": lambda: (
+    "put_back.take_out": lambda: thinned_out(),
+    "put_back.thin_out": lambda: (draft(), ASTRAY, drafts.inner_degree.py_func(draft(), ASTRAY)),
+    "agreed_triangles.add_corner_angles": lambda: (SHAPE.points, unsigned(RAGGED.triangles), np.zeros(N)),
+    "agreed_triangles.circumradius": lambda: (SHAPE.points, 0, 1, 2),
+    "agreed_triangles.close_up": lambda: (
         RAGGED.sides.copy(),
         np.arange(M - 7) % 3 == 0,
         np.cumsum(np.arange(M - 7) % 3 > 0, dtype=np.int32) - 1,
     ),
-    "rims.collect_triangles": lambda: (
+    "agreed_triangles.collect_triangles": lambda: (
         SHAPE.points,
         STAR.indptr,
         STAR.indices,
@@ -699,8 +707,8 @@ CASES = {
         np.zeros(len(STAR.indices)),
         np.zeros(len(STAR.indices), np.int8),
     ),
-    "rims.count_at_edges": lambda: (FACE_EDGES, np.zeros(len(FACE_ENDS), np.int8), bools(len(FACES))),
-    "rims.count_votes": lambda: (
+    "agreed_triangles.count_at_edges": lambda: (FACE_EDGES, np.zeros(len(FACE_ENDS), np.int8), bools(len(FACES))),
+    "agreed_triangles.count_votes": lambda: (
         STAR.indptr,
         STAR.indices,
         STAR.is_open,
@@ -708,7 +716,7 @@ CASES = {
         N,
         np.zeros(len(STAR.indices), np.int8),
     ),
-    "rims.draw_tight": lambda: (
+    "agreed_triangles.draw_tight": lambda: (
         SHAPE.points,
         RAGGED.triangles,
         RAGGED.ends,
@@ -719,15 +727,24 @@ CASES = {
         int32s(N_EDGES + 2 * M),
         bools(M - 7),
     ),
-    "rims.join_alike": lambda: joining(9),
-    "rims.join_alike full": lambda: joining(len(FACES) - 1),
-    "rims.join_alike twisted": lambda: joining(len(FACES) - 3),
-    "rims.keep_manifold": lambda: untaken(),
-    "rims.name_edges": lambda: (FACES, ints(len(STRIP.points) + 1), int32s((3 * len(FACES), 2)), int32s(FACES.shape)),
-    "rims.put_beside": lambda: (RAGGED.sides.copy(), int(np.flatnonzero(RAGGED.sides[:, 1] < 0)[0]), 5),
-    "rims.root_of": lambda: (np.array([0, 0, 1, 2, 3], np.int32), np.array([False, True, True, False, True]), 4),
-    "rims.turn_alike": lambda: (taken()[0], taken()[3], *taken()[5:]),
-    "rims.walk_rims": lambda: (
+    "agreed_triangles.join_alike": lambda: joining(9),
+    "agreed_triangles.join_alike full": lambda: joining(len(FACES) - 1),
+    "agreed_triangles.join_alike twisted": lambda: joining(len(FACES) - 3),
+    "agreed_triangles.keep_manifold": lambda: untaken(),
+    "agreed_triangles.name_edges": lambda: (
+        FACES,
+        ints(len(STRIP.points) + 1),
+        int32s((3 * len(FACES), 2)),
+        int32s(FACES.shape),
+    ),
+    "agreed_triangles.put_beside": lambda: (RAGGED.sides.copy(), int(np.flatnonzero(RAGGED.sides[:, 1] < 0)[0]), 5),
+    "agreed_triangles.root_of": lambda: (
+        np.array([0, 0, 1, 2, 3], np.int32),
+        np.array([False, True, True, False, True]),
+        4,
+    ),
+    "agreed_triangles.turn_alike": lambda: (taken()[0], taken()[3], *taken()[5:]),
+    "agreed_triangles.walk_rims": lambda: (
         RAGGED.ends,
         RAGGED.edge_of,
         RAGGED.sides,
@@ -735,7 +752,7 @@ CASES = {
         ints(N_EDGES + 1),
         ints(N_EDGES + 1),
     ),
-    "shape_preserving.shape_preserving": lambda: (
+    "shape_preserving_weights.shape_preserving": lambda: (
         STAR.local,
         STAR.indptr,
         STAR.is_open,
@@ -753,14 +770,14 @@ CASES = {
         np.zeros(N),
         np.zeros(N),
     ),
-    "stars.measure_sides": lambda: (2.0 * np.cos(ROUND), 2.0 * np.sin(ROUND), TURNS, 6),
-    "stars.measure_sides of more than half a turn": lambda: (np.cos(ROUND), np.sin(ROUND), TURNS, 3),
-    "stars.measure_sides of one neighbour": lambda: (np.cos(ROUND), np.sin(ROUND), TURNS, 1),
-    "stars.measure_sides of none": lambda: (np.cos(ROUND), np.sin(ROUND), TURNS, 0),
-    "stars.pseudo_angle": lambda: (-0.3, -2.0),
-    "stars.turns_left": lambda: (0.0, 0.0, 1.0, 0.0, 2.0, 0.5),
-    "stars.is_one_direction": lambda: (1.0, 2.0, 3.0, 6.0),
-    "stars.project": lambda: (
+    "inversion.measure_sides": lambda: (2.0 * np.cos(ROUND), 2.0 * np.sin(ROUND), TURNS, 6),
+    "inversion.measure_sides of more than half a turn": lambda: (np.cos(ROUND), np.sin(ROUND), TURNS, 3),
+    "inversion.measure_sides of one neighbour": lambda: (np.cos(ROUND), np.sin(ROUND), TURNS, 1),
+    "inversion.measure_sides of none": lambda: (np.cos(ROUND), np.sin(ROUND), TURNS, 0),
+    "inversion.pseudo_angle": lambda: (-0.3, -2.0),
+    "inversion.turns_left": lambda: (0.0, 0.0, 1.0, 0.0, 2.0, 0.5),
+    "inversion.is_one_direction": lambda: (1.0, 2.0, 3.0, 6.0),
+    "inversion.project": lambda: (
         SHAPE.points,
         NORMALS[4],
         4,
@@ -771,11 +788,11 @@ CASES = {
         np.zeros(9),
         np.zeros(9),
     ),
-    "stars.drop_hidden": lambda: (ints(4), np.array([1.0, 2, 0, 3]), np.array([0.0, 0, 1, 0]), 4),
-    "stars.gap_end": lambda: (RING_X[:3], RING_Y[:3], 3),
-    "stars.hull_of_inverses": lambda: (RING_X, RING_Y, 6, 1, False, np.zeros(6), np.zeros(6), ints(8)),
-    "stars.circumdiameter": lambda: (1.0, 0.2, -0.3, 1.0),
-    "stars.delaunay_stars": lambda: (
+    "inversion.drop_hidden": lambda: (ints(4), np.array([1.0, 2, 0, 3]), np.array([0.0, 0, 1, 0]), 4),
+    "inversion.gap_end": lambda: (RING_X[:3], RING_Y[:3], 3),
+    "inversion.hull_of_inverses": lambda: (RING_X, RING_Y, 6, 1, False, np.zeros(6), np.zeros(6), ints(8)),
+    "inversion.circumdiameter": lambda: (1.0, 0.2, -0.3, 1.0),
+    "inversion.delaunay_stars": lambda: (
         SHAPE.points,
         NORMALS,
         *AROUND.table,
@@ -811,11 +828,11 @@ CASES = {
 
 def kernels():
     found = {}
-    for module in pkgutil.iter_modules(_kernels.__path__):
-        loaded = importlib.import_module(f"pointchart._kernels.{module.name}")
+    for module in pkgutil.walk_packages(_kernels.__path__, f"{_kernels.__name__}."):
+        loaded = importlib.import_module(module.name)
         for name, value in vars(loaded).items():
             if hasattr(value, "py_func") and value.py_func.__module__ == loaded.__name__:
-                found[f"{module.name}.{name}"] = value
+                found[f"{module.name.rpartition('.')[2]}.{name}"] = value
     return found
 
 
@@ -894,7 +911,7 @@ def test_fitted_planes_are_those_of_the_last_singular_vectors_of_the_weighted_ne
 
 
 def test_drawing_tight_takes_each_triangle_with_an_obtuse_corner_off_the_rim():
-    arguments = CASES["rims.draw_tight"]()
+    arguments = CASES["agreed_triangles.draw_tight"]()
     on_rim, removed = arguments[6], arguments[8]
     was_on_rim = np.zeros(N, bool)
     was_on_rim[RAGGED.ends[(RAGGED.sides[:, 0] >= 0) & (RAGGED.sides[:, 1] < 0)]] = True

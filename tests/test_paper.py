@@ -16,7 +16,7 @@ from pointchart.boundary.layout import chord_length_steps, on_circle
 from pointchart.io import read_loop, read_scan
 from pointchart.map.convex_combination import Parameterization, parameterize
 from pointchart.map.weights import reciprocal_distance, shape_preserving, uniform
-from pointchart.mesh.quality import least_distance
+from pointchart.mesh.distortion import least_distance
 from pointchart.points.neighbors import Neighborhoods, ball
 from pointchart.points.stars import delaunay_star
 from pointchart.solve.systems import Solved, bicgstab, solve_fixed

@@ -24,7 +24,6 @@ from pointchart import (
     on_circle,
     on_square,
     parameterize_scan,
-    pipeline,
     reciprocal_distance,
     reconstruct,
     shape_preserving,
@@ -40,6 +39,7 @@ from pointchart import (
     uv_on_mesh,
 )
 from pointchart.boundary import chord_length_on_circle, places_of
+from pointchart.gaps import trials
 from pointchart.mesh.connectivity import boundary_loops, half_edges
 from pointchart.pipeline import TRIALS
 
@@ -141,7 +141,7 @@ def test_without_swaps_the_mesh_is_that_of_the_parameters():
     kept = reconstruct(shape.points, swap=keep_edges)
     swapped = reconstruct(shape.points)
     truth = edges(swap_to_delaunay(shape.points, shape.triangles).triangles)
-    assert kept.evidence.meshed.swapped.n_swaps == 0
+    assert kept.evidence.counts.n_swaps == 0
     assert f1(edges(kept.triangles), truth) < f1(edges(swapped.triangles), truth)
 
 
@@ -172,9 +172,11 @@ def test_uv_on_the_mesh_is_one_to_one_and_uv_of_the_points_is_the_first_map(name
     of_points = reconstruct(
         shape.points, chart=uv_of_points, connect=partial(nearest, k=20), weights=reciprocal_distance
     )
-    _, alone = parameterize_scan(shape.points, connect=partial(nearest, k=20), weights=reciprocal_distance)
+    survey, alone = parameterize_scan(shape.points, connect=partial(nearest, k=20), weights=reciprocal_distance)
     assert on_mesh.certificate.flat_or_folded_uv == 0
-    assert np.array_equal(of_points.evidence.chart.uv, alone.uv)
+    assert np.array_equal(of_points.uv, alone.uv[np.argsort(survey.cloud.rows)])
+    assert np.array_equal(of_points.evidence.solve.values, of_points.uv)
+    assert np.allclose(of_points.evidence.first_solve.values, of_points.uv, atol=1e-12)
     assert in_rows(of_points) == in_rows(on_mesh)
     assert not np.allclose(of_points.uv, on_mesh.uv)
 
@@ -418,7 +420,7 @@ def test_the_next_loop_is_tried_where_a_mesh_is_torn_and_the_failure_is_kept_wit
         if len(asked) == 1:
             raise SolveError("not round point {here}", here=rims.loop[0])
 
-    monkeypatch.setattr(pipeline, "check_torn", not_the_first)
+    monkeypatch.setattr(trials, "check_torn", not_the_first)
     result = reconstruct(points, gaps=bridge_gaps)
     (failure,) = result.evidence.failures
     assert set(result.loop) == set(narrow)
@@ -437,7 +439,7 @@ def test_no_more_than_three_loops_are_tried_and_the_first_failure_is_told(monkey
         asked.append(rims.loop)
         raise SolveError(f"refused {len(asked)}")
 
-    monkeypatch.setattr(pipeline, "check_torn", none_will_do)
+    monkeypatch.setattr(trials, "check_torn", none_will_do)
     with pytest.raises(SolveError, match="refused 1"):
         reconstruct(scan.points)
     candidates = survey_scan(scan.points).candidates

@@ -81,7 +81,7 @@ def test_ctrl_c_ends_a_start_with_130_and_without_a_word(tmp_path, module):
 
 
 def test_kernels_are_kept_among_temporary_files_where_nothing_else_can_be_written(read_only):
-    code = f"{KEPT}; from pointchart._kernels.half_edges import following; assert following(5) == 3"
+    code = f"{KEPT}; from pointchart._kernels.mesh.half_edges import following; assert following(5) == 3"
     done = python("-c", code)
     folder = read_only / f"pointchart-{os.getuid()}"
     assert (done.stdout, done.stderr) == (f"{folder}\n", "")
@@ -90,7 +90,7 @@ def test_kernels_are_kept_among_temporary_files_where_nothing_else_can_be_writte
 
 
 def test_kernels_are_kept_there_though_numba_is_imported_first(read_only):
-    code = f"import numba; {KEPT}; from pointchart._kernels.half_edges import following; following(5)"
+    code = f"import numba; {KEPT}; from pointchart._kernels.mesh.half_edges import following; following(5)"
     assert python("-c", code).returncode == 0
     assert list(read_only.rglob("half_edges.following*"))
 
@@ -113,7 +113,7 @@ def test_a_folder_that_can_be_written_is_left_to_numba(read_only, tmp_path, name
 
 
 def test_the_first_run_says_why_it_takes_longer_unless_it_is_to_be_quiet(tmp_path):
-    code = "from pointchart.cli.progress import staged\nwith staged(quiet={}): pass"
+    code = "from pointchart.cli.progress import staged\nwith staged(quiet={}) as clock, clock('prepare'): pass"
     spoken, quiet = (python("-c", code.format(quiet), NUMBA_CACHE_DIR=str(tmp_path)) for quiet in (False, True))
     assert spoken.stderr.startswith("pointchart: first run on this machine: compiling its kernels, once")
     assert (len(spoken.stderr.splitlines()), quiet.stderr) == (1, "")
@@ -124,6 +124,6 @@ def test_later_runs_say_nothing_of_compiling(capsys):
 
     points = shapes.disc(60).points
     delaunay_star(points, nearest(points, 12))
-    with staged(False):
+    with staged(False) as clock, clock("prepare"):
         pass
     assert capsys.readouterr().err == ""

@@ -21,12 +21,11 @@ from .boundary import (
     uniform_steps as uniform_steps,
 )
 from .proof.certificate import Certificate as Certificate, certify as certify
-from .chart.on_mesh import (
-    uv_free_boundary as uv_free_boundary,
-    uv_low_stretch as uv_low_stretch,
-    uv_of_points as uv_of_points,
-    uv_on_mesh as uv_on_mesh,
-)
+from .chart.rule import Chart as Chart
+from .chart.free_boundary import uv_free_boundary as uv_free_boundary
+from .chart.low_stretch import uv_low_stretch as uv_low_stretch
+from .chart.of_points import uv_of_points as uv_of_points
+from .chart.on_mesh import uv_on_mesh as uv_on_mesh
 from .clock import StageClock as StageClock
 from .points.parts import largest_component as largest_component
 from .mesh.crease_swaps import (
@@ -74,13 +73,13 @@ from .pipeline import (
     reconstruct as reconstruct,
 )
 from .points.cloud import Cloud as Cloud, prepare as prepare
-from .mesh.quality import (
+from .mesh.quality import radius_ratios as radius_ratios
+from .mesh.distortion import (
     area_distortions as area_distortions,
     conformal_distortions as conformal_distortions,
     l2_stretch as l2_stretch,
     least_distance as least_distance,
     linf_stretch as linf_stretch,
-    radius_ratios as radius_ratios,
     stretches as stretches,
     vertex_stretches as vertex_stretches,
 )
@@ -114,7 +113,8 @@ from .cad import (
 )
 from .surface.surfacing import SurfacedScan as SurfacedScan, fit_scan as fit_scan
 from .boundary.bounded import Survey as Survey, survey_scan as survey_scan
-from .mesh.delaunay_swaps import Swapped as Swapped, keep_edges as keep_edges, swap_to_delaunay as swap_to_delaunay
+from .mesh.delaunay_swaps import keep_edges as keep_edges, swap_to_delaunay as swap_to_delaunay
+from .mesh.swap_rule import Swapped as Swapped, Swaps as Swaps
 from .mesh.planar_delaunay import triangulate as triangulate
 from .points.surroundings import Vicinity as Vicinity, explore as explore
 from .map.weights import (

@@ -96,7 +96,7 @@ def test_a_bridge_whose_corners_lie_on_the_edge_of_a_gap_is_over_a_gap(pierced):
     points, triangles = pierced
     survey = survey_scan(points)
     scores = np.empty(len(points), bool)
-    scores[survey.cloud.rows] = survey.scores.is_boundary
+    scores[survey.cloud.rows] = survey.score().is_boundary
     for bridge in found_in(points, triangles, scores):
         assert bridge.share > 0.9
         assert bridge.is_gap

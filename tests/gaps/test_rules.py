@@ -11,9 +11,10 @@ from pointchart import (
     reconstruct,
     refuse_second_boundary,
     shapes,
+    spacing,
     uv_of_points,
 )
-from pointchart.gaps.bridges import GAP_SHARE, Bridge
+from pointchart.gaps.bridges import GAP_SHARE, BridgedPatch, find_bridges
 from pointchart.gaps.rules import (
     CLEAR,
     LEAST_SPACINGS,
@@ -25,8 +26,9 @@ from pointchart.gaps.rules import (
     SURELY_SECOND,
     TORN_IN_ALL,
     TORN_SPACINGS,
-    Rims,
     check_torn,
+    compare_gaps,
+    loop_round,
 )
 from pointchart.mesh.connectivity import boundary_loops, half_edges
 
@@ -47,12 +49,12 @@ def lampshade():
 
 
 def gap(rim_length=1.0, rim_in_spacings=30.0, share=1.0, points=(0, 1, 2)):
-    return Bridge(np.arange(1), np.array(points), rim_length, rim_in_spacings, share)
+    return BridgedPatch(np.array(points), 1, rim_length, rim_in_spacings, share, np.arange(1))
 
 
 def of_square(gaps=(), others=(), scale=1.0):
     loops = [Candidate(np.array(loop), 1.0, 1.0) for loop in others]
-    return Rims(scale * SQUARE, np.full(4, scale), np.arange(4), list(gaps), loops)
+    return compare_gaps(scale * SQUARE, np.full(4, scale), np.arange(4), list(gaps), loops)
 
 
 def oriented(triangles):
@@ -81,33 +83,33 @@ def test_the_boundary_of_a_square_is_four_sides_long(scale):
 @pytest.mark.parametrize("spacings", [23.9, 24.0, 100.0])
 def test_a_second_boundary_is_a_quarter_as_long_as_the_first_and_twenty_four_spacings(share, spacings):
     candidate = gap(share * SECOND_BOUNDARY * 12, spacings)
-    rims = of_square([gap(0.01), candidate])
+    found = of_square([gap(0.01), candidate])
     is_second = share >= 1 and spacings >= (LEAST_SPACINGS if share == 3.0 else SECOND_SPACINGS)
     if is_second:
-        assert rims.second_boundary[0].tolist() == candidate.points.tolist()
-        assert rims.second_boundary[1] == candidate.rim_length
+        assert found.second_boundary[0].tolist() == candidate.points.tolist()
+        assert found.second_boundary[1] == candidate.rim_length
         with pytest.raises(SolveError, match="the surface has a second boundary"):
-            refuse_second_boundary(rims)
+            refuse_second_boundary(found)
     else:
-        assert rims.second_boundary is None
-        assert refuse_second_boundary(rims) == []
+        assert found.second_boundary is None
+        assert refuse_second_boundary(found) == []
 
 
 @pytest.mark.parametrize("share", [0.99, 1.0])
 @pytest.mark.parametrize("spacings", [11.9, 12.0])
 def test_a_gap_of_nearly_half_the_boundary_is_a_second_one_however_coarse_the_sampling(share, spacings):
-    rims = of_square([gap(share * SURELY_SECOND * 12, spacings)])
-    assert (rims.second_boundary is not None) == (share >= 1 and spacings >= LEAST_SPACINGS)
+    found = of_square([gap(share * SURELY_SECOND * 12, spacings)])
+    assert (found.second_boundary is not None) == (share >= 1 and spacings >= LEAST_SPACINGS)
 
 
 @pytest.mark.parametrize("share", [0.74, 0.75])
 @pytest.mark.parametrize("step", [0.5, 0.6])
 def test_a_loop_that_no_long_edge_bridges_is_a_second_boundary_if_it_is_half_as_long_and_sure(share, step):
     other = Candidate(np.arange(4), 12.0, share)
-    rims = Rims(SQUARE, np.full(4, step), np.arange(4), [], [other])
+    found = compare_gaps(SQUARE, np.full(4, step), np.arange(4), [], [other])
     is_second = share >= SURE and 12 / step >= SECOND_SPACINGS
-    assert (rims.second_boundary is not None) == is_second
-    assert not rims.is_outgrown
+    assert (found.second_boundary is not None) == is_second
+    assert not found.is_outgrown
 
 
 def test_a_boundary_is_outgrown_by_a_longer_gap():
@@ -117,22 +119,22 @@ def test_a_boundary_is_outgrown_by_a_longer_gap():
 
 def test_a_second_boundary_is_refused_with_lengths_and_places_of_both():
     with pytest.raises(SolveError) as caught:
-        refuse_second_boundary(Rims(SQUARE, np.ones(4), np.array([1, 2, 3, 0]), [gap(3.5, points=(2, 3, 1))], []))
+        refuse_second_boundary(
+            compare_gaps(SQUARE, np.ones(4), np.array([1, 2, 3, 0]), [gap(3.5, points=(2, 3, 1))], [])
+        )
     message = str(caught.value)
     assert "besides the loop of 4 points, 12 long, through point 1 at (3, 0, 0)," in message
     assert "of 3 points, 3.5 long, through point 2 at (3, 3, 0);" in message
-    assert "--holes bridge" in message
-    assert "--holes open" in message
-    assert "--outer x,y,z" in message
+    assert message.endswith("; bridge it, leave it open, say which is the outer one, or give the boundary")
     renamed = str(caught.value.renumbered(np.array([10, 11, 12, 13])))
     assert "through point 11 at" in renamed
     assert "through point 12 at" in renamed
 
 
 def test_a_second_boundary_is_told_by_the_loop_that_was_found_around_it():
-    rims = of_square([gap(4.0, points=(0, 1, 2))], others=[[3, 1], [2, 1, 3, 0]])
+    found = of_square([gap(4.0, points=(0, 1, 2))], others=[[3, 1], [2, 1, 3, 0]])
     with pytest.raises(SolveError, match=r"of 4 points, 14.49 long, through point 2 at \(3, 3, 0\)"):
-        refuse_second_boundary(rims)
+        refuse_second_boundary(found)
 
 
 @pytest.mark.parametrize(
@@ -140,7 +142,7 @@ def test_a_second_boundary_is_told_by_the_loop_that_was_found_around_it():
     [([], None), ([[3, 4, 5]], None), ([[0, 1, 9, 8]], None), ([[5, 0, 1, 2], [0, 1, 2, 3, 4]], 1), ([[3, 2, 1]], 0)],
 )
 def test_the_loop_round_a_gap_holds_most_corners_of_its_bridge(others, found):
-    loop = of_square(others=others).loop_round(gap(points=(0, 1, 2, 3)))
+    loop = loop_round(gap(points=(0, 1, 2, 3)), [Candidate(np.array(other), 1.0, 1.0) for other in others])
     assert (None if loop is None else loop.tolist()) == (None if found is None else others[found])
 
 
@@ -237,8 +239,8 @@ def test_either_rim_of_a_lampshade_is_the_boundary_if_a_place_says_so(rim, rule,
     assert (result.certificate.holes, result.certificate.euler) == (holes, 1 - holes)
     (bridge,) = result.evidence.bridges
     assert as_set(bridge.points) <= as_set(other)
-    rims = boundary_loops(half_edges(result.triangles, len(result.rows)))
-    assert sorted(map(sorted, rims)) == sorted(map(sorted, [wanted, other][: 1 + holes]))
+    found = boundary_loops(half_edges(result.triangles, len(result.rows)))
+    assert sorted(map(sorted, found)) == sorted(map(sorted, [wanted, other][: 1 + holes]))
 
 
 def test_a_second_boundary_may_be_refused_though_the_outer_loop_is_known():
@@ -273,7 +275,9 @@ def test_every_gap_that_is_left_open_is_a_hole_and_else_the_mesh_is_the_same(nam
     assert np.array_equal(whole.uv, opened.uv)
     assert np.array_equal(whole.loop, opened.loop)
     assert oriented(opened.triangles) < oriented(whole.triangles)
-    bridged = np.concatenate([whole.triangles[gap.triangles] for gap in gaps])
+    patches = find_bridges(scan.points, whole.triangles, spacing(scan.points), lambda: np.ones(len(scan.points), bool))
+    assert [patch.n_triangles for patch in patches] == [gap.n_triangles for gap in gaps]
+    bridged = np.concatenate([whole.triangles[patch.triangles] for patch in patches])
     assert not oriented(bridged) & oriented(opened.triangles)
 
 
@@ -304,14 +308,14 @@ def test_a_scan_without_gaps_has_no_hole():
 def test_a_rule_of_the_users_own_is_asked_once_a_mesh_in_the_unit_of_the_scan():
     scan, asked = PIERCED["disc"](), []
 
-    def longest(rims):
-        asked.append(rims)
-        return rims.gaps[:1]
+    def longest(found):
+        asked.append(found)
+        return found.gaps[:1]
 
     result = reconstruct(1000 * scan.points, gaps=longest)
-    (rims,) = asked
-    assert rims.length == pytest.approx(2000 * np.pi, rel=1e-2)
-    assert rims.gaps[0].rim_length == max(bridge.rim_length for bridge in result.evidence.bridges)
+    (found,) = asked
+    assert found.length == pytest.approx(2000 * np.pi, rel=1e-2)
+    assert found.gaps[0].rim_length == max(bridge.rim_length for bridge in result.evidence.bridges)
     assert result.certificate.holes == 1
     assert result.certificate.is_one_to_one
 

@@ -5,15 +5,8 @@ from hypothesis import strategies as st
 from strategies import flat, planar_discs, rotations, seeds
 
 from pointchart.mesh.connectivity import half_edges
-from pointchart.mesh.quality import (
-    area_vectors,
-    dihedral_angles,
-    edge_lengths,
-    l2_stretch,
-    least_distance,
-    radius_ratios,
-    stretches,
-)
+from pointchart.mesh.distortion import l2_stretch, least_distance, stretches
+from pointchart.mesh.quality import area_vectors, dihedral_angles, edge_lengths, radius_ratios
 from pointchart.shapes import bent_sheet, disc, grid, hemisphere
 
 TRIANGLE = np.array([[0, 1, 2]])

@@ -37,6 +37,8 @@ class Survey:
     cloud : Cloud
     vicinity : Vicinity
         Of the cloud's points.
+    points : (n, 3) float64
+        The cloud's points as the scan has them.
     loop : (b,) int64
         Boundary points of the cloud, anticlockwise.
     found : FoundBoundary or None
@@ -46,20 +48,15 @@ class Survey:
     scan: Points
     cloud: Cloud
     vicinity: Vicinity
+    points: Points
     loop: Loop
     found: FoundBoundary | None
 
-    @property
-    def points(self) -> Points:
-        """The cloud's points as the scan has them, (n, 3)."""
-        return self.scan[self.cloud.rows]
-
-    @property
-    def trials(self) -> list["Survey"]:
-        """The same survey with each candidate for the boundary, the best first; itself, if the boundary was given."""
+    def trials(self, most: int) -> list["Survey"]:
+        """Return the survey with each of the best candidates for the boundary; itself, if the boundary was given."""
         if self.found is None:
             return [self]
-        turned = [self.found.beginning_with(k) for k in range(len(self.found.candidates))]
+        turned = [self.found.beginning_with(k) for k in range(min(most, len(self.found.candidates)))]
         return [replace(self, loop=found.loop, found=found) for found in turned]
 
     @property
@@ -67,25 +64,22 @@ class Survey:
         """The boundary and the other loops that were found, the best first; none if the boundary was given."""
         return self.found.candidates if self.found else []
 
-    @property
-    def scores(self) -> BoundaryScores:
-        """How much speaks for each point of the cloud lying on a boundary."""
+    def score(self) -> BoundaryScores:
+        """Return how much speaks for each point of the cloud lying on a boundary; measured now, if that was given."""
         if self.found is not None:
             return self.found.scores
-        near, agreed = self.vicinity, self._agreed.triangles
+        near, agreed = self.vicinity, self._agree().triangles
         return boundary_scores(near.smoothed, near.around, near.star, agreed, near.spacing, sides=near.sides)
 
-    @property
-    def surface(self) -> Patchwork:
-        """The triangles on which stars agree, drawn tight to the boundary."""
+    def draw_tight(self) -> Patchwork:
+        """Return the triangles on which stars agree, drawn tight to the boundary; found now, if that was given."""
         if self.found is not None:
             return self.found.surface
         on_loop = np.zeros(len(self.cloud.points), np.bool_)
         on_loop[self.loop] = True
-        return tightened(self.vicinity.smoothed, self._agreed, on_loop)
+        return tightened(self.vicinity.smoothed, self._agree(), on_loop)
 
-    @property
-    def _agreed(self) -> Patchwork:
+    def _agree(self) -> Patchwork:
         return agreed_patchwork(self.vicinity.smoothed, self.vicinity.star, self.vicinity.spacing)
 
 
@@ -134,6 +128,7 @@ def survey_scan(
         place = None if outer is None else check_place(outer)
         if given is not None and place is not None:
             raise InputError("both a boundary and a place of the boundary are given; give one of them")
+        distinct = scan[cloud.rows]
     with points_called(cloud.rows):
         with clock("neighbours"):
             vicinity = explore(cloud.points, keys=cloud.keys)
@@ -141,11 +136,11 @@ def survey_scan(
             if given is None:
                 found = find_boundary(cloud.points, vicinity=vicinity)
                 if place is not None:
-                    found = found.beginning_with(found.nearest_to(scan[cloud.rows], place))
+                    found = found.beginning_with(found.nearest_to(distinct, place))
                 rim = found.loop
             else:
                 check_one_piece(cloud.points, vicinity.around, vicinity.spacing)
                 found, rim = None, check_loop(cloud.places[given], len(cloud.points))
                 check_order(cloud.points, rim)
                 rim = anticlockwise(cloud.points, rim)
-    return Survey(scan, cloud, vicinity, rim, found)
+    return Survey(scan, cloud, vicinity, distinct, rim, found)

@@ -22,10 +22,9 @@ class Bridge:
 
     Attributes
     ----------
-    triangles : (k,) int64
-        Its triangles.
     points : (c,) int64
-        Their corners.
+        Corners of its triangles.
+    n_triangles : int
     rim_length : float
         Length of its rim, in the unit of the points.
     rim_in_spacings : float
@@ -34,8 +33,8 @@ class Bridge:
         Share of its corners that score as boundary points, in [0, 1].
     """
 
-    triangles: Indices
     points: Indices
+    n_triangles: int
     rim_length: float
     rim_in_spacings: float
     share: float
@@ -46,9 +45,25 @@ class Bridge:
         return self.share >= GAP_SHARE
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class BridgedPatch(Bridge):
+    """A bridge with the places of its triangles in the mesh.
+
+    Attributes
+    ----------
+    triangles : (k,) int64
+    """
+
+    triangles: Indices
+
+    def called(self, names: Indices) -> Bridge:
+        """Return what is known of the bridge, with point i called ``names[i]``."""
+        return Bridge(names[self.points], self.n_triangles, self.rim_length, self.rim_in_spacings, self.share)
+
+
 def find_bridges(
     points: Points, triangles: Triangles, spacing: Floats, is_boundary: Callable[[], Mask]
-) -> list[Bridge]:
+) -> list[BridgedPatch]:
     """Find the patches of a mesh that bridge gaps between the points, the longest rim first.
 
     A gap of the scan is bridged by a few long triangles. Bridges where the scan has no gap mean that the points do not
@@ -65,7 +80,7 @@ def find_bridges(
 
     Returns
     -------
-    list of Bridge
+    list of BridgedPatch
 
     Examples
     --------
@@ -104,7 +119,7 @@ def find_bridges(
         members, length = found[group], float(rim_lengths[labels[group[0]]])
         corners = np.unique(triangles[members])
         in_spacings, share = length / float(np.median(spacing[corners])), float(scores[corners].mean())
-        bridges.append(Bridge(members, corners, length, in_spacings, share))
+        bridges.append(BridgedPatch(corners, len(members), length, in_spacings, share, members))
     return sorted(bridges, key=lambda bridge: -bridge.rim_length)
 
 

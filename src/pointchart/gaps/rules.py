@@ -6,9 +6,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..boundary import Candidate, perimeter
-from ..errors import SolveError
+from ..errors import Remedy, SolveError
 from ..typing import Floats, Indices, Loop, Points, Triangles
-from .bridges import Bridge
+from .bridges import Bridge, BridgedPatch
 
 SECOND_BOUNDARY = 0.25  # a gap with this share of the boundary's length may as well be the boundary
 SECOND_SPACINGS = 24.0  # but a shorter one is a gap of the sampling, however short the boundary is
@@ -23,8 +23,8 @@ CLEAR = 0.05  # disputed links a point up to which a surface is clear
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Rims:
-    """The boundary of a mesh and the gaps that it bridges.
+class BoundaryAndGaps:
+    """The boundary of a mesh, the gaps that it bridges, and whether one of them may be the boundary.
 
     Attributes
     ----------
@@ -32,71 +32,93 @@ class Rims:
     spacing : (n,) float64
     loop : (b,) int64
         The boundary.
-    gaps : list of Bridge
+    length : float
+        Length of the boundary, in the unit of the points.
+    gaps : list of BridgedPatch
         The longest rim first.
     others : list of Candidate
         Further loops that were found.
+    second_boundary : tuple of (c,) int64 array and float, or None
+        The points and the length of the longest gap or loop that may as well be the boundary.
     """
 
     points: Points
     spacing: Floats
     loop: Loop
-    gaps: list[Bridge]
+    length: float
+    gaps: list[BridgedPatch]
     others: list[Candidate]
-
-    @property
-    def length(self) -> float:
-        """Length of the boundary, in the unit of the points."""
-        return perimeter(self.points, self.loop)
-
-    @property
-    def second_boundary(self) -> tuple[Loop, float] | None:
-        """The points and the length of the longest gap or loop that may as well be the boundary, None if there is none.
-
-        A gap may be if it is a quarter as long as the boundary and 24 spacings long, or 0.45 of it and 12. A loop that
-        no long edges bridge may be if it is 0.45 of it, 24 spacings long, and three quarters of it score as boundary:
-        between close sheets, the mesh closes it by short edges.
-        """
-        whole, found = self.length, []
-        for gap in self.gaps:
-            share, size = gap.rim_length / whole, gap.rim_in_spacings
-            if share >= SECOND_BOUNDARY and size >= (LEAST_SPACINGS if share >= SURELY_SECOND else SECOND_SPACINGS):
-                loop = self.loop_round(gap)
-                found.append((gap.points, gap.rim_length) if loop is None else (loop, perimeter(self.points, loop)))
-        bridged = [self.loop_round(gap) for gap in self.gaps]
-        for other in self.others:
-            length = perimeter(self.points, other.loop)
-            size = length / float(np.median(self.spacing[other.loop]))
-            is_long = length >= SURELY_SECOND * whole and size >= SECOND_SPACINGS
-            if is_long and other.share >= SURE and not any(loop is other.loop for loop in bridged):
-                found.append((other.loop, length))
-        return max(found, key=lambda second: second[1], default=None)
+    second_boundary: tuple[Loop, float] | None
 
     @property
     def is_outgrown(self) -> bool:
         """Whether the second boundary is longer than the boundary, which then is likely a false one."""
         return self.second_boundary is not None and self.second_boundary[1] > self.length
 
-    def loop_round(self, gap: Bridge) -> Loop | None:
-        """Return the loop found on which most corners of a gap's bridge lie, or None if there is none."""
-        shares = [np.isin(gap.points, other.loop).mean() for other in self.others]
-        return self.others[int(np.argmax(shares))].loop if shares and max(shares) > 0.5 else None
-
-    def patches(self, gaps: Sequence[Bridge], triangles: Triangles) -> list[Indices]:
+    def patches(self, gaps: Sequence[BridgedPatch], triangles: Triangles) -> list[Indices]:
         """Return the triangles of each gap: its bridge, then those with all corners on the loop around it."""
         found = []
         for gap in gaps:
-            loop, is_round = self.loop_round(gap), np.zeros(len(self.points), np.bool_)
+            loop, is_round = loop_round(gap, self.others), np.zeros(len(self.points), np.bool_)
             is_round[gap.points if loop is None else loop] = True
             fringe = np.setdiff1d(np.flatnonzero(is_round[triangles].all(axis=1)), gap.triangles)
             found.append(np.concatenate([gap.triangles, fringe]))
         return found
 
 
-GapRule = Callable[[Rims], list[Bridge]]
+def compare_gaps(
+    points: Points, spacing: Floats, loop: Loop, gaps: list[BridgedPatch], others: list[Candidate]
+) -> BoundaryAndGaps:
+    """Look for a second boundary among the gaps of a mesh and the other loops of its scan.
+
+    A gap may be one if it is a quarter as long as the boundary and 24 spacings long, or 0.45 of it and 12. A loop that
+    no long edges bridge may be one if it is 0.45 of it, 24 spacings long, and three quarters of it score as boundary:
+    between close sheets, the mesh closes it by short edges.
+
+    Parameters
+    ----------
+    points, spacing, loop, gaps, others
+        See `BoundaryAndGaps`.
+
+    Returns
+    -------
+    BoundaryAndGaps
+
+    Examples
+    --------
+    >>> square = np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]])
+    >>> found = compare_gaps(square, np.ones(4), np.arange(4), [], [])
+    >>> found.length, found.second_boundary
+    (4.0, None)
+    """
+    whole, seconds = perimeter(points, loop), []
+    bridged = [loop_round(gap, others) for gap in gaps]
+    for gap, around in zip(gaps, bridged, strict=True):
+        share, size = gap.rim_length / whole, gap.rim_in_spacings
+        if share >= SECOND_BOUNDARY and size >= (LEAST_SPACINGS if share >= SURELY_SECOND else SECOND_SPACINGS):
+            known = (gap.points, gap.rim_length)
+            seconds.append(known if around is None else (around, perimeter(points, around)))
+    for other in others:
+        length = perimeter(points, other.loop)
+        size = length / float(np.median(spacing[other.loop]))
+        is_long = length >= SURELY_SECOND * whole and size >= SECOND_SPACINGS
+        if is_long and other.share >= SURE and not any(around is other.loop for around in bridged):
+            seconds.append((other.loop, length))
+    return BoundaryAndGaps(
+        points, spacing, loop, whole, gaps, others, max(seconds, key=lambda second: second[1], default=None)
+    )
 
 
-def refuse_second_boundary(rims: Rims) -> list[Bridge]:
+def loop_round(gap: Bridge, others: Sequence[Candidate]) -> Loop | None:
+    """Return the loop on which most corners of a gap's bridge lie, or None if there is none."""
+    shares = [np.isin(gap.points, other.loop).mean() for other in others]
+    return others[int(np.argmax(shares))].loop if shares and max(shares) > 0.5 else None
+
+
+GapRule = Callable[[BoundaryAndGaps], list[BridgedPatch]]
+
+
+def refuse_second_boundary(found: BoundaryAndGaps) -> list[BridgedPatch]:
     """Bridge all gaps, but refuse a surface with a second boundary: the rule if the boundary was found.
 
     Raises
@@ -104,36 +126,41 @@ def refuse_second_boundary(rims: Rims) -> list[Bridge]:
     SolveError
         Naming both loops.
     """
-    if rims.second_boundary is None:
+    if found.second_boundary is None:
         return []
-    second, length = rims.second_boundary
+    second, length = found.second_boundary
     raise SolveError(
-        f"the surface has a second boundary, so it is no disc: besides the loop of {len(rims.loop)} points, "
-        f"{rims.length:.4g} long, through point {{here}} at {place_of(rims.points, rims.loop[0])}, there is one of "
+        f"the surface has a second boundary, so it is no disc: besides the loop of {len(found.loop)} points, "
+        f"{found.length:.4g} long, through point {{here}} at {place_of(found.points, found.loop[0])}, there is one of "
         f"{len(second)} points, {length:.4g} long, through point {{there}} at "
-        f"{place_of(rims.points, second[0])}; bridge it (--holes bridge), leave it open (--holes open), say which "
-        "is the outer one (--outer x,y,z), or give the boundary (--boundary)",
-        here=rims.loop[0],
+        f"{place_of(found.points, second[0])}",
+        remedies=(
+            Remedy.bridge_gaps,
+            Remedy.leave_gaps_open,
+            Remedy.name_the_outer_loop,
+            Remedy.give_the_boundary,
+        ),
+        here=found.loop[0],
         there=second[0],
     )
 
 
-def bridge_gaps(rims: Rims) -> list[Bridge]:
+def bridge_gaps(found: BoundaryAndGaps) -> list[BridgedPatch]:
     """Bridge all gaps: the rule if the boundary was given."""
     return []
 
 
-def leave_gaps_open(rims: Rims) -> list[Bridge]:
+def leave_gaps_open(found: BoundaryAndGaps) -> list[BridgedPatch]:
     """Leave all gaps open: the mesh is a disc with a hole for each."""
-    return rims.gaps
+    return found.gaps
 
 
-def check_torn(rims: Rims, bridges: Sequence[Bridge], disputed: Indices, *, is_given: bool) -> None:
+def check_torn(found: BoundaryAndGaps, bridges: Sequence[Bridge], disputed: Indices, *, is_given: bool) -> None:
     """Check that a mesh is nowhere torn: that it bridges no large place where the scan has no gap.
 
     Parameters
     ----------
-    rims : Rims
+    found : BoundaryAndGaps
     bridges : sequence of Bridge
     disputed : (n,) int array
         Disputed links of each point: where sheets are close, some bridges are bad places of a disc.
@@ -145,7 +172,7 @@ def check_torn(rims: Rims, bridges: Sequence[Bridge], disputed: Indices, *, is_g
     SolveError
         If a bridge that lies over no gap is too long, or all of them together.
     """
-    length = rims.length
+    length = found.length
     doubtful = [bridge for bridge in bridges if not bridge.is_gap and bridge.rim_in_spacings >= LEAST_SPACINGS]
     clear = [bridge for bridge in doubtful if disputed[bridge.points].mean() <= CLEAR]
     is_torn_in_all = sum(bridge.rim_in_spacings for bridge in clear) >= TORN_IN_ALL
@@ -157,14 +184,15 @@ def check_torn(rims: Rims, bridges: Sequence[Bridge], disputed: Indices, *, is_g
         or (bridge.rim_in_spacings >= TORN_SPACINGS and bridge.rim_length >= MESSY_SHARE * length)
     ]
     least = SECOND_BOUNDARY * length if is_given else 0.0
-    remedy = "cut the scan there" if is_given else "cut the scan there, or give the boundary"
+    remedies = (Remedy.cut_the_scan,) if is_given else (Remedy.cut_the_scan, Remedy.give_the_boundary)
     for bridge in torn:
         if bridge.rim_length >= least:
             raise SolveError(
                 f"the surface is no disc: {len(bridge.points)} points round point {{there}} at "
-                f"{place_of(rims.points, bridge.points[0])} are joined by edges of over four spacings, "
+                f"{place_of(found.points, bridge.points[0])} are joined by edges of over four spacings, "
                 f"{bridge.rim_in_spacings:.0f} spacings round, although the scan has no gap there, as on a handle, "
-                f"a twist, a part so long that its map collapses, or with a false boundary; {remedy}",
+                f"a twist, a part so long that its map collapses, or with a false boundary",
+                remedies=remedies,
                 there=bridge.points[0],
             )
 

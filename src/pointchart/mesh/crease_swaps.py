@@ -17,7 +17,7 @@ from ..errors import InputError
 from ..points.neighbors import spacing
 from ..typing import Triangles
 from .connectivity import half_edges
-from .delaunay_swaps import Swapped
+from .swap_rule import Swapped
 
 
 def swap_to_least_turn(points: ArrayLike, triangles: Triangles) -> Swapped:

@@ -1,6 +1,5 @@
 """From points to a mesh: assembled where stars agree, or by a map, its triangulation and swaps; then mended."""
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -17,14 +16,37 @@ from ..solve.systems import Solver
 from ..typing import UV, Loop, Points, Triangles
 from .assembly import assemble
 from .connectivity import start_draft
-from .delaunay_swaps import Swapped, swap_in_place
+from .delaunay_swaps import swap_in_place
 from .planar_delaunay import separate, triangulate
 from .recover import recover_links
 from .relocate import least_gain, relocate_in_place, suspect_points
-
-SwapRule = Callable[[Points, Triangles], Swapped]
+from .swap_rule import SwapFunction, Swapped
 
 PASSES = 3  # of relocation and swaps, each from the points that the mesh before contradicts
+
+
+@dataclass(frozen=True, slots=True)
+class MeshCounts:
+    """What was swapped and mended on the way to a mesh.
+
+    Attributes
+    ----------
+    n_swaps : int
+    is_settled : bool
+        Whether no edge asks for another swap.
+    n_pockets : int
+        Loops that were closed in assembling.
+    n_recovered : int
+        Links that were made edges before the swaps.
+    n_relocated : int
+        Moves of points to other places of the mesh.
+    """
+
+    n_swaps: int
+    is_settled: bool
+    n_pockets: int
+    n_recovered: int
+    n_relocated: int
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -39,12 +61,8 @@ class Meshed:
         What the map was made with.
     first_map : Parameterization or None
         None if the mesh was assembled without a map.
-    n_pockets : int
-        Loops that were closed in assembling.
-    n_recovered : int
-        Links that were made edges before the swaps.
-    n_relocated : int
-        Moves of points to other places of the mesh.
+    n_pockets, n_recovered, n_relocated : int
+        See `MeshCounts`.
     """
 
     swapped: Swapped
@@ -55,6 +73,12 @@ class Meshed:
     n_recovered: int = 0
     n_relocated: int = 0
 
+    @property
+    def counts(self) -> MeshCounts:
+        """What was swapped and mended."""
+        swapped = self.swapped
+        return MeshCounts(swapped.n_swaps, swapped.is_settled, self.n_pockets, self.n_recovered, self.n_relocated)
+
 
 def mesh_once(
     points: Points,
@@ -63,7 +87,7 @@ def mesh_once(
     neighborhoods: Neighborhoods,
     *,
     weights: WeightScheme,
-    swap: SwapRule,
+    swap: SwapFunction,
     solver: Solver,
     clock: StageClock,
 ) -> Meshed:

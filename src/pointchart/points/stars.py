@@ -14,7 +14,7 @@ from .neighbors import BoxTree, Neighborhoods
 
 STEEPEST = 0.8  # sine of the steepest neighbour against the tangent plane; steeper ones lie on another sheet
 FADING = 0.8  # the farthest neighbours have 4% of the weight of the nearest in a plane: they may lie on another sheet
-WIDER = 4
+WIDER = 4  # times the candidates, for stars that reach beyond them: so a circle has twice the radius
 
 
 def normals(points: ArrayLike, around: Neighborhoods, *, fading: float = 0.0) -> Floats:

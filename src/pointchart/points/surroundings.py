@@ -11,6 +11,8 @@ from .neighbors import spacing as local_spacing
 from .stars import Sides, smooth, star_and_sides
 from .ties import break_ties, tie_keys
 
+# Two rings of 6 and 12 points, and a little. On 14 real scans 0.5 to 9% of the stars reach beyond, across the lines of
+# a laser scanner 15% and on a strip beside itself 24%; those are searched again, among more.
 NEAREST = 20
 
 

@@ -6,7 +6,7 @@ from .._check import check_points
 from .._parallel import over_ranges
 from ..typing import Floats, Keys, Points
 
-TIE_BREAK = 1e-2
+TIE_BREAK = 1e-2  # spacings, a choice: over the rounding of grids in files, under what changes stars that have no ties
 MANTISSA, EXPONENT = np.uint64(52), np.uint64(0x7FF)  # bits of a double: places of the one, mask of the other
 GOLDEN = 0x9E3779B97F4A7C15  # 2^64 over the golden ratio: the step of SplitMix64 from one number to the next
 

@@ -9,14 +9,14 @@ from .._check import check_loop, check_points, check_triangles
 from .._kernels.mesh.half_edges import count_parts, measure_edges
 from .._parallel import over_ranges
 from ..boundary import is_same_loop
-from ..errors import InputError
+from ..errors import InputError, SolveError
 from ..mesh.connectivity import HalfEdges, boundary_loops, fans, half_edges
 from ..mesh.planar_delaunay import coinciding
 from ..plane.exact_signs import is_simple, orientation_signs
 from ..points.neighbors import spacing as local_spacing
 from ..typing import UV, Floats, Loop, Points
 
-FOLD_COSINE = np.cos(np.deg2rad(150.0))
+FOLD_COSINE = np.cos(np.deg2rad(150.0))  # of the turn at an edge: a choice, as folds are counted and never refused
 
 
 @dataclass(frozen=True, slots=True)
@@ -178,6 +178,30 @@ def certify(
         folds=folds,
         holes=holes,
     )
+
+
+def check_proof(proof: Certificate, *, is_one_to_one: bool) -> None:
+    """Check that a mesh was proved to be what was asked for.
+
+    Parameters
+    ----------
+    proof : Certificate
+    is_one_to_one : bool
+        Whether the parameters have to be one-to-one.
+
+    Raises
+    ------
+    SolveError
+        If it is not the disc asked for, or the parameters are not one-to-one.
+    """
+    if not proof.is_as_asked:
+        raise SolveError(f"the mesh is no disc: {', '.join(proof.faults)}; give another boundary or neighbourhood")
+    if is_one_to_one and not proof.is_one_to_one:
+        raise SolveError(
+            f"the parameters are not one-to-one: {proof.flat_or_folded_uv} triangles are flat and "
+            f"{proof.coinciding_uv} points coincide: a part of the surface is too long for its neck in double "
+            "precision, or too narrow for a straight side of the domain; cut that part off, or use the circle"
+        )
 
 
 def _checked_uv(uv: ArrayLike, n_points: int) -> UV:

@@ -6,11 +6,13 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .._check import check_points
-from ..chart.on_mesh import ChartRule, uv_free_boundary, uv_low_stretch
+from ..chart.free_boundary import uv_free_boundary
+from ..chart.low_stretch import uv_low_stretch
+from ..chart.rule import Chart
 from ..clock import StageClock
-from ..errors import InputError, SolveError
-from ..gaps.bridges import Bridge
-from ..gaps.rules import GapRule, Rims, leave_gaps_open, refuse_second_boundary
+from ..errors import InputError, Remedy, SolveError
+from ..gaps.bridges import BridgedPatch
+from ..gaps.rules import BoundaryAndGaps, GapRule, leave_gaps_open, refuse_second_boundary
 from ..mesh.connectivity import boundary_loops, half_edges
 from ..pipeline import LayoutRule, Reconstruction, reconstruct
 from ..plane.exact_signs import is_simple
@@ -39,7 +41,7 @@ class SurfacedScan:
     loops : list of (b, 2) arrays
         The feet of the boundary, anticlockwise, and of gaps of the scan, clockwise: they trim the surface.
     deviation : Deviation
-    chart : callable
+    chart : Chart
         What gave the parameters: `uv_free_boundary` or `uv_low_stretch`.
     """
 
@@ -47,7 +49,7 @@ class SurfacedScan:
     fit: Fit
     loops: list[UV]
     deviation: Deviation
-    chart: ChartRule
+    chart: Chart
 
 
 def fit_scan(
@@ -109,7 +111,7 @@ def fit_scan(
     _check_unit(cloud, tolerance)
     rule = gaps or (cut_gaps_out if loop is None and outer is None else leave_gaps_open)
     if square is None:
-        chart: ChartRule = uv_free_boundary if len(cloud) <= FREE_MOST else uv_low_stretch
+        chart: Chart = uv_free_boundary if len(cloud) <= FREE_MOST else uv_low_stretch
         meshed = reconstruct(cloud, loop, outer=outer, gaps=rule, chart=chart, clock=clock)
         uv, margin = _turned(meshed.uv), MARGIN
     else:
@@ -136,10 +138,10 @@ def fit_scan(
     return SurfacedScan(meshed, fit, loops, measure_deviation(cloud, fit.surface, fit.uv), chart)
 
 
-def cut_gaps_out(rims: Rims) -> list[Bridge]:
+def cut_gaps_out(found: BoundaryAndGaps) -> list[BridgedPatch]:
     """Leave all gaps open, but refuse a scan of which one may be the boundary."""
-    refuse_second_boundary(rims)
-    return leave_gaps_open(rims)
+    refuse_second_boundary(found)
+    return leave_gaps_open(found)
 
 
 def check_met(surfaced: SurfacedScan, tolerance: float, outliers: float) -> None:
@@ -153,18 +155,19 @@ def check_met(surfaced: SurfacedScan, tolerance: float, outliers: float) -> None
     if surfaced.fit.is_met:
         return
     off, n_control = surfaced.deviation, surfaced.fit.surface.n_control
-    remedy = "allow more control points or a larger tolerance"
+    remedies: tuple[Remedy, ...] = (Remedy.allow_control_points, Remedy.allow_deviation, Remedy.take_the_best)
+    noise = ""
     if surfaced.fit.is_noise:
-        noise = min(level.held_out for level in surfaced.fit.levels)
-        remedy = (
-            f"finer knots would follow noise, or what no point shows: points left out of the fit stay {noise:.3g} away "
-            f"(RMS); take a tolerance of about {max(3.0 * noise, 1.1 * off.largest(outliers)):.2g}"
+        held_out = min(level.held_out for level in surfaced.fit.levels)
+        remedies = (Remedy.allow_deviation, Remedy.take_the_best)
+        noise = (
+            f"; finer knots would follow noise, or what no point shows: points left out of the fit stay {held_out:.3g} "
+            f"away (RMS), which allows a tolerance of about {max(3.0 * held_out, 1.1 * off.largest(outliers)):.2g}"
         )
     raise SolveError(
         f"the surface of {n_control} control points deviates by {off.largest(outliers):.4g} but for "
-        f"{100 * outliers:g} % of the points (RMS {off.rms:.4g}), more than the tolerance of {tolerance:.4g}; "
-        f"{remedy}, or take the best "
-        "that there is"
+        f"{100 * outliers:g} % of the points (RMS {off.rms:.4g}), more than the tolerance of {tolerance:.4g}{noise}",
+        remedies=remedies,
     )
 
 

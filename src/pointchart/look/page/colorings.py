@@ -5,10 +5,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...boundary.bounded import survey_scan
-from ...mesh.quality import area_vectors, vertex_stretches
+from ...mesh.distortion import vertex_stretches
+from ...mesh.quality import area_vectors
 from ...typing import UV, Floats, Loop, Points, Triangles
 
-SAME = 1e-9
+SAME = 1e-9  # of the values: what measures differ by on a plane or an even grid, which would fill the whole scale
 OUTERMOST = 2.0  # per cent of the points at either end, which colours do not tell apart
 
 
@@ -102,7 +103,7 @@ def mesh_shades(
             scale * near.spacing[places],
             is_log=True,
         ),
-        Shade("boundary score", "0 inside, 1 on the boundary", survey.scores.total[places]),
+        Shade("boundary score", "0 inside, 1 on the boundary", survey.score().total[places]),
     ]
 
 
