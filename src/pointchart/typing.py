@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 Floats: TypeAlias = NDArray[np.float64]
 Indices: TypeAlias = NDArray[Any]  # of int64, or of int32 inside the pipeline
 Mask: TypeAlias = NDArray[np.bool_]
+Keys: TypeAlias = NDArray[np.uint64]
 Points: TypeAlias = Floats
 UV: TypeAlias = Floats  # dimensionless
 Weights: TypeAlias = Floats

@@ -11,7 +11,7 @@ from pointchart import InputError, delaunay_star, nearest, shapes, spacing
 from pointchart.agreement.agreed_surface import agreed_patchwork, patchwork
 from pointchart.boundary import is_same_loop, rims
 from pointchart.mesh.connectivity import half_edges
-from pointchart.points.stars import break_ties
+from pointchart.points.ties import break_ties
 
 STRIPS = {
     "narrow": lambda: shapes.moebius(12, 2),

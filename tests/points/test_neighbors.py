@@ -6,7 +6,8 @@ from strategies import clouds, rotations, seeds
 
 from pointchart.errors import InputError
 from pointchart.points.neighbors import BoxTree, Neighborhoods, ball, from_pairs, nearest, rectangular, spacing
-from pointchart.points.stars import break_ties, delaunay_star, normals
+from pointchart.points.stars import delaunay_star, normals
+from pointchart.points.ties import break_ties
 from pointchart.shapes import bent_sheet, disc, grid, hemisphere, relief
 
 
@@ -81,6 +82,16 @@ def test_a_tree_finds_the_nearest_of_points_in_any_order_for_any_of_them(points,
     assert np.allclose(far, np.sort(distance[asked], axis=1)[:, : found.shape[1]], rtol=1e-12)
     assert found.shape == (20, min(k, len(points) - 1))
     assert np.array_equal(tree.nearest(k)[asked], found)
+
+
+@settings(max_examples=30)
+@given(st.integers(1, 30), seeds)
+def test_of_points_at_one_distance_those_of_smaller_coordinates_are_nearer(k, seed):
+    corner = np.stack(np.meshgrid(range(6), range(5), range(3), indexing="ij"), axis=-1).reshape(-1, 3) * 1.0
+    mixed = np.random.default_rng(seed).permutation(corner)
+    square = ((mixed[:, None] - mixed) ** 2).sum(axis=2)
+    expected = [np.lexsort((*mixed.T[::-1], row))[1 : k + 1].tolist() for row in square]
+    assert BoxTree(mixed).nearest(k).tolist() == expected
 
 
 @pytest.mark.parametrize("n", range(2, 20))

@@ -131,7 +131,7 @@ def survey_scan(
         distinct = scan[cloud.rows]
     with points_called(cloud.rows):
         with clock("neighbours"):
-            vicinity = explore(cloud.points)
+            vicinity = explore(cloud.points, keys=cloud.keys)
         with clock("boundary"):
             if given is None:
                 found = find_boundary(cloud.points, vicinity=vicinity)

@@ -6,8 +6,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .._check import check_points
-from ..typing import Indices, Points
+from .._parallel import over_ranges
+from ..typing import Indices, Keys, Points
 from .morton import morton_keys
+from .ties import tie_keys
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -24,12 +26,15 @@ class Cloud:
         The point that each of the N rows of the scan gave.
     scale : float
         Length 1 of the cloud in the unit of the scan; a power of two.
+    keys : (n,) uint64
+        A hash of each point's coordinates in the scan, by which ties are broken: the same in any part of the scan.
     """
 
     points: Points
     rows: Indices
     places: Indices
     scale: float
+    keys: Keys
 
     @property
     def n_repeated(self) -> int:
@@ -41,7 +46,8 @@ def prepare(points: ArrayLike) -> Cloud:
     """Merge repeated points, centre and scale, and sort along a Morton curve.
 
     The scale is a power of two and the centre a point of the scan, so that coordinates keep their digits and scans that
-    differ by such a scale give identical results.
+    differ by such a scale give identical results. Axes on which a centre would round a coordinate, as none can that has
+    an offset of twice its extent or more, stay without one: prepared points are exactly those of the scan.
 
     Parameters
     ----------
@@ -72,10 +78,28 @@ def prepare(points: ArrayLike) -> Cloud:
     places = np.empty(len(scan), np.int32)
     places[rows] = np.arange(len(rows), dtype=np.int32)
     distinct = check_points(scan[rows])
-    middle = (distinct.min(axis=0) + distinct.max(axis=0)) / 2.0
-    distinct -= distinct[np.argmin(np.abs(distinct - middle).max(axis=1))]
-    exponent = int(np.ceil(np.log2(max(distinct.max(), -distinct.min()))))
-    return Cloud(np.ldexp(distinct, -exponent), rows, places[first], 2.0**exponent)
+    centered = _centered(distinct)
+    exponent = int(np.ceil(np.log2(max(centered.max(), -centered.min()))))
+    return Cloud(np.ldexp(centered, -exponent), rows, places[first], 2.0**exponent, tie_keys(distinct))
+
+
+def _centered(points: Points) -> Points:
+    """Move a point near the middle to the origin, on those axes on which this rounds no coordinate."""
+    middle = (points.min(axis=0) + points.max(axis=0)) / 2.0
+    center = points[np.argmin(np.abs(points - middle).max(axis=1))]
+    centered, is_rounded = np.empty_like(points), np.zeros(3, bool)
+
+    def shift(first: int, last: int) -> None:
+        given = points[first:last]
+        moved = np.subtract(given, center, out=centered[first:last])
+        # The larger of two numbers, less their difference as rounded, is exact (Dekker 1971): one of these tells.
+        wrong = (given - moved != center) | (moved + center != given)
+        if wrong.any():
+            is_rounded[wrong.any(axis=0)] = True
+
+    over_ranges(shift, len(points))
+    centered[:, is_rounded] = points[:, is_rounded]
+    return centered
 
 
 def _first_rows(points: Points, order: Indices, keys: Indices) -> Indices:

@@ -14,34 +14,7 @@ from .neighbors import BoxTree, Neighborhoods
 
 STEEPEST = 0.8  # sine of the steepest neighbour against the tangent plane; steeper ones lie on another sheet
 FADING = 0.8  # the farthest neighbours have 4% of the weight of the nearest in a plane: they may lie on another sheet
-TIE_BREAK = 1e-2  # spacings, a choice: over the rounding of grids in files, under what changes stars that have no ties
 WIDER = 4  # times the candidates, for stars that reach beyond them: so a circle has twice the radius
-
-
-def break_ties(points: ArrayLike, spacing: Floats) -> Points:
-    """Move each point by up to a hundredth of the spacing, the same way on every call.
-
-    On a grid all circles hold four points, and neighbouring stars cannot agree on a diagonal. So stars that have to
-    agree are searched among points in general position; nothing else ever sees the moved points.
-
-    Parameters
-    ----------
-    points : (n, 3) array
-    spacing : (n,) array
-        Local spacing.
-
-    Returns
-    -------
-    (n, 3) float64 array.
-
-    Examples
-    --------
-    >>> corners = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0]])
-    >>> bool(np.abs(break_ties(corners, np.ones(4)) - corners).max() < 1e-2)
-    True
-    """
-    cloud = check_points(points)
-    return cloud + TIE_BREAK * spacing[:, None] * np.random.default_rng(0).uniform(-1.0, 1.0, cloud.shape)
 
 
 def normals(points: ArrayLike, around: Neighborhoods, *, fading: float = 0.0) -> Floats:

@@ -5,10 +5,11 @@ from dataclasses import dataclass
 from numpy.typing import ArrayLike
 
 from .._check import check_points
-from ..typing import Floats, Points
+from ..typing import Floats, Keys, Points
 from .neighbors import BoxTree, Neighborhoods, rectangular
 from .neighbors import spacing as local_spacing
-from .stars import Sides, break_ties, smooth, star_and_sides
+from .stars import Sides, smooth, star_and_sides
+from .ties import break_ties, tie_keys
 
 # Two rings of 6 and 12 points, and a little. On 14 real scans 0.5 to 9% of the stars reach beyond, across the lines of
 # a laser scanner 15% and on a strip beside itself 24%; those are searched again, among more.
@@ -41,13 +42,15 @@ class Vicinity:
     sides: Sides
 
 
-def explore(points: ArrayLike) -> Vicinity:
+def explore(points: ArrayLike, *, keys: Keys | None = None) -> Vicinity:
     """Find out what is around each point: one search that the boundary and the links share.
 
     Parameters
     ----------
     points : (n, 3) array
         Distinct points, in spatial order; in any other the search takes long.
+    keys : (n,) uint64 array, optional
+        What ties are broken by, such as those of a `Cloud`; a hash of the coordinates, if not given.
 
     Returns
     -------
@@ -64,5 +67,6 @@ def explore(points: ArrayLike) -> Vicinity:
     around = rectangular(BoxTree(cloud).nearest(NEAREST))
     spacing = local_spacing(cloud, around=around)
     smoothed = smooth(cloud, around)
-    star, sides = star_and_sides(break_ties(smoothed, spacing), around, local=False)
+    keys = tie_keys(cloud) if keys is None else keys  # of the points as they are: smoothed, they are rounded
+    star, sides = star_and_sides(break_ties(smoothed, spacing, keys), around, local=False)
     return Vicinity(around, spacing, smoothed, star, sides)

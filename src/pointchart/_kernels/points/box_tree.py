@@ -39,11 +39,21 @@ def square_to_box(low, high, node, x, y, z):
     return a * a + b * b + c * c
 
 
+@njit(cache=True, nogil=True, inline="always")
+def goes_first(points, i, j):
+    """Tell whether point i comes before point j at the same distance: by their coordinates."""
+    for k in range(2):
+        if points[i, k] != points[j, k]:
+            return points[i, k] < points[j, k]
+    return points[i, 2] < points[j, 2]
+
+
 @njit(cache=True, nogil=True)
 def find_nearest(points, low, high, queries, found, squares):
     """Write the nearest other points of some points, nearest first, and their squared distances.
 
-    As far from a point as the farthest found for the one before it, plus the way between the two, there are enough.
+    Of points at the same distance those of smaller coordinates count as nearer, wherever the tree has them: the nearest
+    of a point are the same in any part of the cloud that holds them. As far from a point as the farthest found for the one before it, plus the way between the two, there are enough.
     """
     n, leaves, most = len(points), len(low) // 2, found.shape[1]
     stack, square = np.empty(DEEPEST, np.int64), np.empty(DEEPEST)
@@ -59,7 +69,7 @@ def find_nearest(points, low, high, queries, found, squares):
             size, stack[0], square[0] = 1, subtree, square_to_box(low, high, subtree, x, y, z)
             while size > 0:
                 size -= 1
-                if square[size] >= worst:
+                if square[size] > worst:
                     continue
                 node = stack[size]
                 if node < leaves:
@@ -67,10 +77,10 @@ def find_nearest(points, low, high, queries, found, squares):
                     a, b = square_to_box(low, high, near, x, y, z), square_to_box(low, high, other, x, y, z)
                     if a > b:  # the nearer on top: what it holds may rule the other out
                         near, other, a, b = other, near, b, a
-                    if b < worst:
+                    if b <= worst:
                         stack[size], square[size] = other, b
                         size += 1
-                    if a < worst:
+                    if a <= worst:
                         stack[size], square[size] = near, a
                         size += 1
                     continue
@@ -79,11 +89,13 @@ def find_nearest(points, low, high, queries, found, squares):
                 for j in range(begin, min(begin + LEAF, n)):
                     dx, dy, dz = points[j, 0] - x, points[j, 1] - y, points[j, 2] - z
                     d = dx * dx + dy * dy + dz * dz
-                    if d >= worst or j == i:
+                    if d > worst or j == i:
+                        continue
+                    if count == most and d == worst and not goes_first(points, j, row[most - 1]):
                         continue
                     k = count if count < most else most - 1
                     count = min(count + 1, most)
-                    while k > 0 and far[k - 1] > d:
+                    while k > 0 and (far[k - 1] > d or (far[k - 1] == d and goes_first(points, j, row[k - 1]))):
                         far[k], row[k] = far[k - 1], row[k - 1]
                         k -= 1
                     far[k], row[k] = d, j
