@@ -31,7 +31,8 @@ from pointchart.map.convex_combination import parameterize
 from pointchart.map.weights import reciprocal_distance
 from pointchart.mesh.delaunay_swaps import swap_to_delaunay
 from pointchart.mesh.planar_delaunay import triangulate
-from pointchart.points.neighbors import Neighborhoods, ball
+from pointchart.points.neighborhoods import Neighborhoods
+from pointchart.points.neighbors import ball
 from pointchart.points.stars import delaunay_star
 from pointchart.shapes import Shape, add_noise, disc
 from pointchart.typing import UV, Loop, Points, Triangles

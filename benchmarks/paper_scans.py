@@ -12,12 +12,15 @@ import scipy.sparse as sp
 from pointchart.boundary.layout import chord_length_steps, on_circle
 from pointchart.errors import InputError
 from pointchart.io import read_loop, read_scan
-from pointchart.map.convex_combination import cut_points, parameterize
+from pointchart.map.convex_combination import parameterize
 from pointchart.map.weights import WeightScheme, reciprocal_distance, shape_preserving, uniform
-from pointchart.points.neighbors import Neighborhoods, ball
+from pointchart.points.neighborhoods import Neighborhoods
+from pointchart.points.neighbors import ball
 from pointchart.points.stars import delaunay_star
 from pointchart.shapes import hemisphere, sculpture, tube
-from pointchart.solve.systems import Solved, Solver, bicgstab
+from pointchart.solve.krylov import bicgstab
+from pointchart.solve.reach import cut_points
+from pointchart.solve.solver import Solved, Solver
 from pointchart.typing import UV, Floats, Indices, Loop, Points, Triangles
 
 DATA = Path(__file__).resolve().parents[2] / "shared" / "data"

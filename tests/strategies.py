@@ -7,7 +7,7 @@ import scipy.sparse as sp
 from hypothesis import strategies as st
 
 from pointchart import shapes
-from pointchart.points.neighbors import Neighborhoods
+from pointchart.points.neighborhoods import Neighborhoods
 
 seeds = st.integers(0, 2**32 - 1)
 

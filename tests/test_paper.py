@@ -17,9 +17,12 @@ from pointchart.io import read_loop, read_scan
 from pointchart.map.convex_combination import Parameterization, parameterize
 from pointchart.map.weights import reciprocal_distance, shape_preserving, uniform
 from pointchart.mesh.distortion import least_distance
-from pointchart.points.neighbors import Neighborhoods, ball
+from pointchart.points.neighborhoods import Neighborhoods
+from pointchart.points.neighbors import ball
 from pointchart.points.stars import delaunay_star
-from pointchart.solve.systems import Solved, bicgstab, solve_fixed
+from pointchart.solve.krylov import bicgstab
+from pointchart.solve.solver import Solved
+from pointchart.solve.systems import solve_fixed
 from pointchart.typing import Floats, Loop, Points
 
 DATA = Path(__file__).resolve().parents[2] / "shared" / "data"

@@ -62,10 +62,12 @@ from .io import (
     write_mesh as write_mesh,
     write_uv as write_uv,
 )
-from .agreement.links import Links as Links, link_stars as link_stars, trusted as trusted
+from .agreement.links import Links as Links, link_stars as link_stars
+from .map.weights import trusted as trusted
 from .mesh.connectivity import one_rings as one_rings
 from .solve.algebraic_multigrid import multigrid as multigrid
-from .points.neighbors import Neighborhoods as Neighborhoods, ball as ball, nearest as nearest, spacing as spacing
+from .points.neighborhoods import Neighborhoods as Neighborhoods
+from .points.neighbors import ball as ball, nearest as nearest, spacing as spacing
 from .map.convex_combination import Parameterization as Parameterization, parameterize as parameterize
 from .pipeline import (
     Reconstruction as Reconstruction,
@@ -91,14 +93,9 @@ from .mesh.relocate import (
     suspect_points as suspect_points,
 )
 from .map.protrusions import parameterize_open as parameterize_open
-from .solve.systems import (
-    Solution as Solution,
-    bicgstab as bicgstab,
-    cholesky as cholesky,
-    conjugate_gradient as conjugate_gradient,
-    direct as direct,
-    solve_fixed as solve_fixed,
-)
+from .solve.systems import Solution as Solution, solve_fixed as solve_fixed
+from .solve.krylov import bicgstab as bicgstab, conjugate_gradient as conjugate_gradient
+from .solve.factors import cholesky as cholesky, direct as direct
 from .points.stars import (
     delaunay_star as delaunay_star,
     nearest_star as nearest_star,

@@ -1,10 +1,14 @@
 """The checks at the door: every public function calls these and trusts its data afterwards."""
 
+from typing import TypeVar
+
 import numpy as np
 from numpy.typing import ArrayLike
 
 from .errors import InputError, name_some
 from .typing import UV, Floats, Indices, Loop, Points, Triangles
+
+Kind = TypeVar("Kind")
 
 SAMPLE = 64  # points looked at first: if they span a plane, so do all
 
@@ -178,6 +182,32 @@ def check_neighbors(indices: Indices, n_rows: int, n_points: int) -> None:
         raise InputError(
             f"the neighbourhoods name points from {indices.min()} to {indices.max()}; they run from 0 to {n_points - 1}"
         )
+
+
+def check_kind(neighborhoods: object, kind: type[Kind], sentence: str) -> Kind:
+    """Return neighbourhoods if they are of a kind, such as ordered ones, or say what needs them.
+
+    Raises
+    ------
+    InputError
+    """
+    if not isinstance(neighborhoods, kind):
+        raise InputError(sentence)
+    return neighborhoods
+
+
+def check_layout(boundary_uv: ArrayLike, loop: Loop) -> UV:
+    """Return where a boundary goes, (b, 2) float64, if that is round a convex domain, or say why not.
+
+    Raises
+    ------
+    InputError
+        See `check_convex`; or if there is not one place for each boundary point.
+    """
+    layout = check_convex(boundary_uv)
+    if layout.shape != (len(loop), 2):
+        raise InputError(f"boundary_uv has shape {layout.shape}; the loop of {len(loop)} points needs ({len(loop)}, 2)")
+    return layout
 
 
 def check_convex(polygon: ArrayLike, *, is_strict: bool = False) -> UV:

@@ -7,6 +7,7 @@ from functools import partial
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ._check import check_layout, check_neighbors
 from .boundary import Candidate, chord_length_on_circle
 from .boundary.bounded import Survey, survey_scan
 from .chart.on_mesh import uv_on_mesh
@@ -17,15 +18,16 @@ from .errors import PointchartError, points_called
 from .gaps.bridges import Bridge, open_gaps
 from .gaps.rules import GapRule, bridge_gaps, refuse_second_boundary
 from .gaps.trials import Trial, first_sound, swap_on
-from .map.convex_combination import Parameterization, parameterize
+from .map.convex_combination import Parameterization, map_points
 from .map.weights import WeightScheme, mean_value
 from .mesh.delaunay_swaps import swap_to_delaunay
 from .mesh.make import MeshCounts
 from .mesh.swap_rule import SwapRule, as_swaps
 from .mesh.ways import Connect, Way, default_stars, make_mesh
 from .points.cloud import Cloud
-from .proof.certificate import Certificate, certify, check_proof
-from .solve.systems import Solution, Solver
+from .proof.certificate import Certificate, check_proof, prove
+from .solve.solver import Solver
+from .solve.systems import Solution
 from .typing import UV, Indices, Loop, Points, Triangles
 
 TRIALS = 3  # loops tried, the best first, until a mesh is sound: on no scan of the evaluation was a later one right
@@ -169,7 +171,7 @@ def reconstruct(
     trial = first_sound(surveys, rule, partial(make_mesh, way=way, clock=clock))
     del survey, surveys  # most of the memory, which the map needs
     rim = trial.around.loop
-    boundary_uv = layout(scan, cloud.rows[rim])
+    boundary_uv = check_layout(layout(scan, cloud.rows[rim]), rim)
     with points_called(cloud.rows):
         with clock("swap"):
             trial = swap_on(trial, cloud.points, swaps)
@@ -180,7 +182,7 @@ def reconstruct(
             patches = trial.around.patches(trial.opened, meshed.swapped.triangles)
             triangles, holes = open_gaps(meshed.swapped.triangles, patches, len(cloud.points))
             spacing = trial.around.spacing / cloud.scale
-            proof = certify(cloud.points, triangles, uv=mapped.uv, loop=rim, spacing=spacing, holes=holes)
+            proof = prove(cloud.points, triangles, mapped.uv, rim, spacing=spacing, holes=holes)
             check_proof(proof, is_one_to_one=charted.is_one_to_one)
     trial = replace(trial, meshed=meshed)
     return _in_rows(cloud, trial, triangles, mapped, proof)
@@ -217,13 +219,14 @@ def parameterize_scan(
     clock = clock or StageClock()
     survey = survey_scan(points, loop, outer=outer, clock=clock)
     cloud, rim = survey.cloud.points, survey.loop
-    boundary_uv = layout(survey.scan, survey.cloud.rows[rim])
+    boundary_uv = check_layout(layout(survey.scan, survey.cloud.rows[rim]), rim)
     with points_called(survey.cloud.rows):
         with clock("neighbours"):
             neighborhoods = (connect or default_stars)(cloud * survey.cloud.scale)
         with clock("map"):
             weights = weights or mean_value
-            mapped = parameterize(cloud, rim, boundary_uv, neighborhoods, weights=weights, solver=solver)
+            check_neighbors(neighborhoods.indices, neighborhoods.n_points, len(cloud))
+            mapped = map_points(cloud, rim, boundary_uv, neighborhoods, weights=weights, solver=solver)
     return survey, mapped
 
 

@@ -5,11 +5,11 @@ from strategies import clouds
 
 from pointchart.agreement.links import LONE_TRUST, disputed_links, link_stars, tie_down
 from pointchart.errors import InputError
-from pointchart.map.convex_combination import cut_points
 from pointchart.pipeline import reconstruct
 from pointchart.points.neighbors import nearest
 from pointchart.points.stars import delaunay_star
 from pointchart.shapes import add_noise, disc, fold, grid, hemisphere, relief
+from pointchart.solve.reach import cut_points
 
 
 def links_of(points, k=15):

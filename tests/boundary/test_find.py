@@ -1,3 +1,5 @@
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from comparisons import as_cycle, either_way, farthest
@@ -97,9 +99,11 @@ def test_a_power_of_two_of_scale_changes_nothing(exponent):
 
 
 @pytest.mark.parametrize("scale", [1e-9, 0.3, 1e9])
-def test_the_boundary_does_not_depend_on_the_unit(scale):
+def test_the_unit_changes_the_boundary_only_where_ties_are_broken(scale):
     shape = shapes.sculpture(700)
-    assert as_cycle(found_loop(scale * shape.points)) == as_cycle(found_loop(shape.points))
+    one, other = (set(pairwise(as_cycle(found_loop(unit * shape.points)))) for unit in (1.0, scale))
+    # Rounding to another unit changes the coordinates, and so what breaks ties: a loop may take another triangle in.
+    assert len(one ^ other) <= 0.05 * len(one)
 
 
 @given(seeds)

@@ -6,13 +6,17 @@ from strategies import flat, planar_discs, rotations, seeds, systems
 
 from pointchart.boundary.layout import chord_length_steps, on_circle, on_square
 from pointchart.errors import InputError, SolveError
-from pointchart.map.convex_combination import check_connected, cut_points, parameterize
+from pointchart.map.convex_combination import parameterize
 from pointchart.map.weights import normalize, reciprocal_distance, uniform
 from pointchart.mesh.connectivity import one_rings
-from pointchart.points.neighbors import Neighborhoods, ball, from_pairs, nearest
+from pointchart.points.neighborhoods import Neighborhoods, from_pairs
+from pointchart.points.neighbors import ball, nearest
 from pointchart.points.stars import delaunay_star
 from pointchart.shapes import disc, relief
-from pointchart.solve.systems import bicgstab, direct, solve_fixed
+from pointchart.solve.factors import direct
+from pointchart.solve.krylov import bicgstab
+from pointchart.solve.reach import check_connected, cut_points
+from pointchart.solve.systems import solve_fixed
 
 
 def support_directions(corners):

@@ -2,12 +2,13 @@ import numpy as np
 import pytest
 
 from pointchart import shapes
-from pointchart.agreement.links import link_stars, trusted
+from pointchart.agreement.links import link_stars
 from pointchart.map.convex_combination import parameterize
 from pointchart.map.protrusions import COLLAPSED, _carried_on, parameterize_open
+from pointchart.map.weights import trusted
 from pointchart.mesh.planar_delaunay import coinciding
 from pointchart.pipeline import reconstruct
-from pointchart.points.neighbors import from_pairs
+from pointchart.points.neighborhoods import from_pairs
 from pointchart.points.surroundings import explore
 
 

@@ -5,13 +5,14 @@ from hypothesis import strategies as st
 from strategies import clouds, planar_discs, rotations, seeds
 
 from pointchart._kernels.map.mean_value_weights import half_angle_tangent
-from pointchart.agreement.links import link_stars, trusted
+from pointchart.agreement.links import link_stars
 from pointchart.boundary.layout import on_circle
 from pointchart.errors import InputError
 from pointchart.map.convex_combination import parameterize
-from pointchart.map.weights import mean_value, normalize, reciprocal_distance, shape_preserving, uniform
+from pointchart.map.weights import mean_value, normalize, reciprocal_distance, shape_preserving, trusted, uniform
 from pointchart.mesh.connectivity import one_rings
-from pointchart.points.neighbors import Neighborhoods, ball, nearest
+from pointchart.points.neighborhoods import Neighborhoods
+from pointchart.points.neighbors import ball, nearest
 from pointchart.points.stars import delaunay_star
 from pointchart.shapes import disc
 

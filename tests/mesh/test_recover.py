@@ -13,7 +13,7 @@ from pointchart.mesh.recover import recover_links
 from pointchart.mesh.relocate import mesh_energy
 from pointchart.pipeline import reconstruct
 from pointchart.plane.exact_signs import orientation_signs
-from pointchart.points.neighbors import Neighborhoods
+from pointchart.points.neighborhoods import Neighborhoods
 from pointchart.points.surroundings import explore
 from pointchart.proof.certificate import certify
 

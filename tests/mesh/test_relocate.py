@@ -18,7 +18,8 @@ from pointchart.mesh.relocate import (
     relocate_points,
     suspect_points,
 )
-from pointchart.points.neighbors import Neighborhoods, nearest
+from pointchart.points.neighborhoods import Neighborhoods
+from pointchart.points.neighbors import nearest
 from pointchart.points.surroundings import explore
 from pointchart.proof.certificate import certify
 

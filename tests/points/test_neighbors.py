@@ -5,9 +5,11 @@ from hypothesis import strategies as st
 from strategies import clouds, rotations, seeds
 
 from pointchart.errors import InputError
-from pointchart.points.neighbors import BoxTree, Neighborhoods, ball, from_pairs, nearest, rectangular, spacing
+from pointchart.points.neighborhoods import Neighborhoods, from_pairs, rectangular
+from pointchart.points.neighbors import ball, nearest, spacing
 from pointchart.points.stars import delaunay_star, normals
 from pointchart.points.ties import break_ties
+from pointchart.points.trees import BoxTree
 from pointchart.shapes import bent_sheet, disc, grid, hemisphere, relief
 
 

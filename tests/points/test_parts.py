@@ -5,7 +5,7 @@ from hypothesis import strategies as st
 from strategies import seeds
 
 from pointchart import InputError, PointchartError, largest_component, nearest, reconstruct, shapes, spacing
-from pointchart.points.neighbors import from_pairs
+from pointchart.points.neighborhoods import from_pairs
 from pointchart.points.parts import APART, check_one_piece, label_parts
 
 SHEET, PIECE = shapes.relief(400, seed=1), shapes.disc(150, seed=2)

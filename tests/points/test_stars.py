@@ -6,7 +6,8 @@ from scipy.spatial import Delaunay
 from strategies import clouds, cocircular_sets, flat, integer_sets, planar_discs, rotations, seeds
 
 from pointchart.errors import InputError
-from pointchart.points.neighbors import Neighborhoods, ball, nearest
+from pointchart.points.neighborhoods import Neighborhoods
+from pointchart.points.neighbors import ball, nearest
 from pointchart.points.stars import STEEPEST, delaunay_star, nearest_star, normals, smooth
 from pointchart.shapes import add_noise, disc, fold, grid, hemisphere, relief
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .._check import check_points
+from .._check import check_kind
 from .._kernels.agreement.agreed_triangles import (
     FULL,
     JOINED,
@@ -18,9 +18,8 @@ from .._kernels.agreement.agreed_triangles import (
     turn_alike,
 )
 from .._parallel import over_ranges
-from ..errors import InputError
-from ..points.neighbors import Neighborhoods
-from ..typing import Floats, Indices, Loop, Mask, Triangles
+from ..points.neighborhoods import Rings
+from ..typing import Floats, Indices, Loop, Mask, Points, Triangles
 
 LEAST_VOTES, ALL_VOTES = 2, 3  # of the stars of its corners, for a triangle to be taken; and to be taken first
 WIDEST = 2.0  # circumradius of the largest triangle taken, in local spacings
@@ -148,15 +147,15 @@ def patchwork(triangles: ArrayLike, n_points: int) -> Patchwork:
     return _taken(faces, edge_of, ends, order, may_twist, n_points, faces[:0])
 
 
-def agreed_patchwork(points: ArrayLike, star: Neighborhoods, spacing: Floats) -> Patchwork:
+def agreed_patchwork(cloud: Points, star: Rings, spacing: Floats) -> Patchwork:
     """Collect the triangles that at least two stars hold, the best ones where three would share an edge.
 
     Triangles that all three stars hold come first, then those with small circles.
 
     Parameters
     ----------
-    points : (n, 3) array
-    star : Neighborhoods
+    cloud : (n, 3) float64 array
+    star : Rings
         Delaunay stars.
     spacing : (n,) array
         Local spacing: triangles with a circumradius over two spacings bridge a gap and are left out.
@@ -165,9 +164,7 @@ def agreed_patchwork(points: ArrayLike, star: Neighborhoods, spacing: Floats) ->
     -------
     Patchwork
     """
-    cloud = check_points(points)
-    if star.is_open is None:
-        raise InputError("only ordered neighbourhoods hold triangles; use Delaunay stars")
+    check_kind(star, Rings, "only ordered neighbourhoods hold triangles; use Delaunay stars")
     n, is_open = len(cloud), star.is_open
     votes = np.empty(len(star.indices), np.int8)
     over_ranges(lambda first, last: count_votes(star.indptr, star.indices, is_open, first, last, votes), n)

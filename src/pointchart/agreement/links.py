@@ -5,13 +5,12 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.sparse as sp
 
+from .._check import check_kind
 from .._kernels.agreement.link_trust import agreement
 from .._parallel import over_ranges
-from ..errors import InputError
-from ..map.convex_combination import cut_points
-from ..map.weights import WeightScheme, normalize, reciprocal_distance
-from ..points.neighbors import Neighborhoods
-from ..typing import Floats, Indices, Loop, Mask, Points, Weights
+from ..points.neighborhoods import Neighborhoods, Rings
+from ..solve.reach import cut_points
+from ..typing import Floats, Indices, Loop, Mask, Points
 
 FULL_TRUST = 1.0  # factor of the weight: as it is
 LONE_TRUST = 0.01  # a link that only one star sees: never 0, since the graph must stay connected
@@ -34,7 +33,7 @@ class Links:
     trust: Floats
 
 
-def link_stars(star: Neighborhoods, *, also: Neighborhoods | None = None) -> Links:
+def link_stars(star: Rings, *, also: Neighborhoods | None = None) -> Links:
     """Join Delaunay stars to one symmetric graph, trusting links by the agreement of neighbouring stars.
 
     A link has full trust when it is an edge of a triangle that at least two of its corners' stars hold. The others,
@@ -42,8 +41,7 @@ def link_stars(star: Neighborhoods, *, also: Neighborhoods | None = None) -> Lin
 
     Parameters
     ----------
-    star : Neighborhoods
-        Ordered.
+    star : Rings
     also : Neighborhoods, optional
         Further links, trusted as those on which no stars agree: other diagonals that the mesh may take, so that its
         graph is nearly the same and one order of elimination serves both.
@@ -95,7 +93,7 @@ def tie_down(points: Points, links: Links, loop: Loop) -> Links:
     >>> from pointchart.points.stars import delaunay_star
     >>> plus = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0], [0, 0, 9]])
     >>> star = delaunay_star(plus[:5], nearest(plus[:5], 4))
-    >>> apart = Neighborhoods(np.append(star.indptr, 16), star.indices, None, np.append(star.is_open, True))
+    >>> apart = Rings(np.append(star.indptr, 16), star.indices, np.append(star.is_open, True))
     >>> tied = tie_down(plus, link_stars(apart), np.arange(1, 5))
     >>> int(tied.neighborhoods.sizes[5])
     3
@@ -114,7 +112,7 @@ def tie_down(points: Points, links: Links, loop: Loop) -> Links:
     return Links(Neighborhoods(tied.indptr.astype(np.int64), tied.indices.astype(np.int64)), tied.data)
 
 
-def disputed_links(star: Neighborhoods) -> Indices:
+def disputed_links(star: Rings) -> Indices:
     """Count the links of each point's star on which no neighbouring star agrees, (n,).
 
     None on a clearly sampled surface; some where sheets are close, at creases and in noise.
@@ -130,19 +128,9 @@ def disputed_links(star: Neighborhoods) -> Indices:
     return np.bincount(star.rows, ~_agree(star), star.n_points).astype(np.int64)
 
 
-def _agree(star: Neighborhoods) -> Mask:
+def _agree(star: Rings) -> Mask:
     """Tell for each link of a star whether it is an edge of a triangle that another star holds as well."""
-    if star.is_open is None:
-        raise InputError("only ordered neighbourhoods can agree on triangles; use Delaunay stars")
+    check_kind(star, Rings, "only ordered neighbourhoods can agree on triangles; use Delaunay stars")
     agrees, is_open = np.zeros(len(star.indices), np.bool_), star.is_open
     over_ranges(lambda first, last: agreement(star.indptr, star.indices, is_open, first, last, agrees), star.n_points)
     return agrees
-
-
-def trusted(links: Links, scheme: WeightScheme = reciprocal_distance) -> WeightScheme:
-    """Multiply a weight scheme by the trust of links, for use on their neighbourhoods."""
-
-    def weights(points: Points, neighborhoods: Neighborhoods) -> Weights:
-        return normalize(links.trust * scheme(points, neighborhoods), neighborhoods)
-
-    return weights

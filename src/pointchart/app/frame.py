@@ -3,7 +3,7 @@
 import numpy as np
 
 from ..look.camera import camera, upright_axes, upward
-from ..points.neighbors import Neighborhoods
+from ..points.neighborhoods import Neighborhoods
 from ..typing import Floats, Indices, Points, Triangles
 
 SIZE = 4.0  # diagonal of the scan on the page

@@ -7,7 +7,7 @@ import numpy as np
 
 from ..errors import InputError, points_called
 from ..map.weights import WeightScheme
-from ..points.neighbors import Neighborhoods
+from ..points.neighborhoods import Neighborhoods, Rings
 from ..typing import Indices, Points, Weights
 
 LEAST = 100  # points around the centre that are looked at
@@ -82,8 +82,8 @@ def around_point(
         found = connect(local)
         weights = scheme(local, found)
     row = slice(found.indptr[0], found.indptr[1])
-    is_open = found.is_open is not None and bool(found.is_open[0])
-    return Around(centre, rows[found.indices[row]], weights[row], found.is_open is not None, is_open)
+    is_open = isinstance(found, Rings) and bool(found.is_open[0])
+    return Around(centre, rows[found.indices[row]], weights[row], isinstance(found, Rings), is_open)
 
 
 def _near(points: Points, centre: int, least: int, radius: float) -> tuple[Indices, Points]:

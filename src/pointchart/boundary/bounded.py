@@ -10,20 +10,15 @@ from .._memory import check_room
 from ..agreement.agreed_surface import Patchwork, agreed_patchwork
 from ..clock import StageClock
 from ..errors import InputError, points_called
-from ..points.cloud import Cloud, prepare
+from ..points.cloud import Cloud, made_ready
 from ..points.parts import check_one_piece
-from ..points.surroundings import Vicinity, explore
+from ..points.surroundings import Vicinity, look_around
 from ..typing import Loop, Points
-from . import (
-    BoundaryScores,
-    Candidate,
-    FoundBoundary,
-    anticlockwise,
-    boundary_scores,
-    check_order,
-    find_boundary,
-    tightened,
-)
+from .find import Candidate, FoundBoundary, search_boundary
+from .loops import tightened
+from .order import check_order
+from .orientation import anticlockwise
+from .scores import BoundaryScores, score_points
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -69,7 +64,7 @@ class Survey:
         if self.found is not None:
             return self.found.scores
         near, agreed = self.vicinity, self._agree().triangles
-        return boundary_scores(near.smoothed, near.around, near.star, agreed, near.spacing, sides=near.sides)
+        return score_points(near.smoothed, near.around, near.star, agreed, near.spacing, near.sides)
 
     def draw_tight(self) -> Patchwork:
         """Return the triangles on which stars agree, drawn tight to the boundary; found now, if that was given."""
@@ -123,7 +118,7 @@ def survey_scan(
     with clock("prepare"):
         scan = check_points(points)
         check_room(len(scan))
-        cloud = prepare(scan)
+        cloud = made_ready(scan)
         given = None if loop is None else check_loop(loop, len(scan))
         place = None if outer is None else check_place(outer)
         if given is not None and place is not None:
@@ -131,10 +126,10 @@ def survey_scan(
         distinct = scan[cloud.rows]
     with points_called(cloud.rows):
         with clock("neighbours"):
-            vicinity = explore(cloud.points, keys=cloud.keys)
+            vicinity = look_around(cloud.points, cloud.keys)
         with clock("boundary"):
             if given is None:
-                found = find_boundary(cloud.points, vicinity=vicinity)
+                found = search_boundary(cloud.points, vicinity)
                 if place is not None:
                     found = found.beginning_with(found.nearest_to(distinct, place))
                 rim = found.loop

@@ -9,11 +9,11 @@ from .._check import check_points
 from ..agreement.agreed_surface import Patchwork, agreed_patchwork
 from ..errors import InputError
 from ..points.parts import check_one_piece
-from ..points.surroundings import Vicinity, explore
+from ..points.surroundings import Vicinity, look_around
 from ..typing import Floats, Loop, Mask, Points
 from .loops import rims, tightened
 from .orientation import anticlockwise
-from .scores import BoundaryScores, boundary_scores
+from .scores import BoundaryScores, score_points
 from .steps import step_lengths
 
 LEAST_SHARE = 0.5  # of the length between boundary points: the boundaries found on 15 scans have 0.94 and more
@@ -98,10 +98,14 @@ def find_boundary(points: ArrayLike, *, vicinity: Vicinity | None = None) -> Fou
     38
     """
     cloud = check_points(points)
-    near = explore(cloud) if vicinity is None else vicinity
+    return search_boundary(cloud, look_around(cloud) if vicinity is None else vicinity)
+
+
+def search_boundary(cloud: Points, near: Vicinity) -> FoundBoundary:
+    """Find the boundary as `find_boundary` does, of points that are known to be right."""
     check_one_piece(cloud, near.around, near.spacing)
     agreed = agreed_patchwork(near.smoothed, near.star, near.spacing)
-    scores = boundary_scores(near.smoothed, near.around, near.star, agreed.triangles, near.spacing, sides=near.sides)
+    scores = score_points(near.smoothed, near.around, near.star, agreed.triangles, near.spacing, near.sides)
     is_boundary = scores.is_boundary
     surface = tightened(near.smoothed, agreed, is_boundary)
     found = [measure(cloud, loop, is_boundary) for loop in rims(surface)]

@@ -43,8 +43,9 @@ def centripetal_steps(points: ArrayLike, loop: ArrayLike) -> Floats:
 
 
 def _steps(points: ArrayLike, loop: ArrayLike, power: float) -> Floats:
-    cloud = check_points(points)
+    cloud = np.asarray(points, dtype=np.float64)
     rim = check_loop(loop, len(cloud))
+    check_points(cloud[rim], least=3)  # of the others nothing is asked
     return np.asarray(step_lengths(cloud, rim) ** power)
 
 

@@ -1,15 +1,13 @@
 """Loops from a patchwork of triangles: its rims, drawn tight."""
 
 import numpy as np
-from numpy.typing import ArrayLike
 
-from .._check import check_points
 from .._kernels.agreement.agreed_triangles import draw_tight, walk_rims
 from ..agreement.agreed_surface import Patchwork
-from ..typing import Indices, Loop, Mask
+from ..typing import Indices, Loop, Mask, Points
 
 
-def tightened(points: ArrayLike, surface: Patchwork, is_boundary: Mask) -> Patchwork:
+def tightened(cloud: Points, surface: Patchwork, is_boundary: Mask) -> Patchwork:
     """Draw the rims of a surface tighter, so that boundary points that they jump over come to lie on them.
 
     A triangle on a rim goes when its inner corner scores as a boundary point and sees the rim edge under more than a
@@ -17,7 +15,7 @@ def tightened(points: ArrayLike, surface: Patchwork, is_boundary: Mask) -> Patch
 
     Parameters
     ----------
-    points : (n, 3) array
+    cloud : (n, 3) float64 array
     surface : Patchwork
     is_boundary : (n,) bool array
 
@@ -29,12 +27,12 @@ def tightened(points: ArrayLike, surface: Patchwork, is_boundary: Mask) -> Patch
     Examples
     --------
     >>> from pointchart.agreement.agreed_surface import patchwork
-    >>> points = [[0, 0, 0], [2, 0, 0], [1, 0.5, 0], [1, 2, 0]]
+    >>> points = np.array([[0.0, 0, 0], [2, 0, 0], [1, 0.5, 0], [1, 2, 0]])
     >>> surface = patchwork([[0, 1, 2], [1, 3, 2], [3, 0, 2]], 4)
     >>> tightened(points, surface, np.ones(4, bool)).triangles.tolist()
     [[1, 3, 2], [3, 0, 2]]
     """
-    cloud, m = check_points(points), len(surface.triangles)
+    m = len(surface.triangles)
     n_rim = int(((surface.sides[:, 0] >= 0) & (surface.sides[:, 1] < 0)).sum())
     removed, queue = np.zeros(m, np.bool_), np.empty(n_rim + 2 * m, np.int32)
     on_rim = np.zeros(len(cloud), np.bool_)

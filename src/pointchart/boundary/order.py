@@ -3,7 +3,7 @@
 import numpy as np
 
 from ..errors import InputError
-from ..points.neighbors import search
+from ..points.trees import search
 from ..typing import Loop, Points
 
 NEARBY_STEPS = 16  # that each is compared with: some eight along the loop, as many on a part that runs beside it

@@ -5,14 +5,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .._check import check_neighbors, check_points
+from .._check import check_kind, check_neighbors, check_points
 from .._kernels.agreement.agreed_triangles import add_corner_angles
 from .._kernels.boundary.sides import survey_sides
 from .._kernels.unsigned import unsigned
 from .._parallel import over_ranges
-from ..errors import InputError
-from ..points.neighbors import Neighborhoods
-from ..points.stars import FADING, STEEPEST, Sides, normals
+from ..points.neighborhoods import Neighborhoods, Rings, Stars
+from ..points.stars import FADING, STEEPEST, Sides, plane_normals
 from ..typing import Floats, Mask, Points, Triangles
 
 WIDE_STAR = 1.0  # circumradius of a star in spacings where the doubt begins: that of an even sampling is 0.6
@@ -53,7 +52,7 @@ class BoundaryScores:
 def boundary_scores(
     points: ArrayLike,
     around: Neighborhoods,
-    star: Neighborhoods,
+    star: Stars,
     agreed: Triangles,
     spacing: Floats,
     *,
@@ -70,8 +69,7 @@ def boundary_scores(
         Smoothed, if they are noisy.
     around : Neighborhoods
         About 20 nearest.
-    star : Neighborhoods
-        Delaunay stars.
+    star : Stars
     agreed : (m, 3) int array
         The triangles on which the stars agree.
     spacing : (n,) array
@@ -105,13 +103,22 @@ def boundary_scores(
     array([False,  True,  True,  True,  True])
     """
     cloud = check_points(points)
-    angle, offset = sides or _sides(cloud, around)
+    check_neighbors(around.indices, around.n_points, len(cloud))
+    check_kind(star, Stars, "the neighbourhoods are no stars, so they have no width; use Delaunay stars")
+    return score_points(cloud, around, star, agreed, spacing, sides or _sides(cloud, around))
+
+
+def score_points(
+    cloud: Points, around: Neighborhoods, star: Stars, agreed: Triangles, spacing: Floats, sides: Sides
+) -> BoundaryScores:
+    """Score points as `boundary_scores` does, by what is known to be right."""
+    angle, offset = sides
     even = 2.0 * np.pi / np.maximum(around.sizes, 3)
     free = 1.0 - corner_angles(cloud, agreed) / (2.0 * np.pi)
     return BoundaryScores(
         gap=np.clip((angle - even) / np.maximum(np.pi - even, 1e-300), 0.0, 1.0),
         half_disc=np.minimum(0.5 * np.pi * offset, 1.0),
-        width=np.clip(_width(star) / spacing - WIDE_STAR, 0.0, 1.0),
+        width=np.clip(star.width / spacing - WIDE_STAR, 0.0, 1.0),
         uncovered=np.clip(2.0 * free, 0.0, 1.0),
     )
 
@@ -143,17 +150,19 @@ def angular_gaps(points: ArrayLike, around: Neighborhoods) -> Floats:
     >>> np.rad2deg(angular_gaps(plus, nearest(plus, 4))[:2]).round(6)
     array([ 90., 270.])
     """
-    return _sides(check_points(points), around).angle
+    cloud = check_points(points)
+    check_neighbors(around.indices, around.n_points, len(cloud))
+    return _sides(cloud, around).angle
 
 
-def hull_test(star: Neighborhoods) -> Mask:
+def hull_test(star: Rings) -> Mask:
     """Tell which points lie on the hull of their own local triangulation: the boundary points of the paper.
 
     Finds convex stretches of a boundary; points in its concave bends lie inside the hull and are missed.
 
     Parameters
     ----------
-    star : Neighborhoods
+    star : Rings
         Delaunay stars.
 
     Returns
@@ -177,7 +186,8 @@ def hull_test(star: Neighborhoods) -> Mask:
     >>> hull_test(delaunay_star(plus, nearest(plus, 4))).tolist()
     [False, True, True, True, True]
     """
-    return _is_open(star).copy()
+    sentence = "the neighbourhoods are not ordered, so no star is known to be open; use Delaunay stars"
+    return check_kind(star, Rings, sentence).is_open.copy()
 
 
 def corner_angles(points: Points, triangles: Triangles) -> Floats:
@@ -195,23 +205,10 @@ def corner_angles(points: Points, triangles: Triangles) -> Floats:
 
 
 def _sides(cloud: Points, around: Neighborhoods) -> Sides:
-    check_neighbors(around.indices, around.n_points, len(cloud))
-    normal, sides = normals(cloud, around, fading=FADING), Sides(np.empty(len(cloud)), np.empty(len(cloud)))
+    normal, sides = plane_normals(cloud, around, FADING), Sides(np.empty(len(cloud)), np.empty(len(cloud)))
     rows = around.table
     over_ranges(
         lambda first, last: survey_sides(cloud, normal, *rows, STEEPEST, first, last, *sides),
         len(cloud),
     )
     return sides
-
-
-def _is_open(star: Neighborhoods) -> Mask:
-    if star.is_open is None:
-        raise InputError("the neighbourhoods are not ordered, so no star is known to be open; use Delaunay stars")
-    return star.is_open
-
-
-def _width(star: Neighborhoods) -> Floats:
-    if star.width is None:
-        raise InputError("the neighbourhoods are no stars, so they have no width; use Delaunay stars")
-    return star.width

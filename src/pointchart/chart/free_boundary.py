@@ -11,7 +11,8 @@ from ..errors import InputError
 from ..map.convex_combination import Parameterization
 from ..mesh.make import Meshed
 from ..plane.exact_signs import is_simple, orientation_signs
-from ..solve.systems import Solution, Solver
+from ..solve.solver import Solver
+from ..solve.systems import Solution
 from ..typing import UV, Floats, Loop, Mask, Points, Triangles
 from .dirichlet_energy import FlatTriangles, NewtonSystem, cross
 from .low_stretch import uv_low_stretch
@@ -73,7 +74,7 @@ def uv_free_boundary(
     start = uv_low_stretch(points, loop, boundary_uv, meshed, solver)
     if not is_positive(start.uv, triangles):
         return start
-    flattened = minimize_dirichlet(points, triangles, loop, start.uv)
+    flattened = descend(points, triangles, loop, start.uv)
     return Parameterization(flattened.uv, loop, flattened.solution)
 
 
@@ -126,8 +127,13 @@ def minimize_dirichlet(
     unused = np.setdiff1d(np.arange(len(cloud)), faces)
     if len(unused):
         raise InputError("points {unused} are in no triangle, so nothing places them; take them out", unused=unused)
+    return descend(cloud, faces, rim, _checked_start(start, len(cloud), faces, rim), most_steps)
+
+
+def descend(cloud: Points, faces: Triangles, rim: Loop, start: UV, most_steps: int = MOST_STEPS) -> Flattened:
+    """Minimize the energy as `minimize_dirichlet` does, from a start that is known to be one-to-one."""
     surface = FlatTriangles.of(cloud, faces)
-    uv = surface.fitted(_checked_start(start, len(cloud), faces, rim))
+    uv = surface.fitted(start)
     system = NewtonSystem.of(faces, surface)
     energies, solution = [surface.energy(uv)], Solution(uv, 0.0, (), "none", 0, 0)
     while len(energies) <= most_steps:

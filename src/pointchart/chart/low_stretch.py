@@ -8,10 +8,10 @@ from itertools import islice
 from ..errors import PointchartError
 from ..map.convex_combination import Parameterization, solve_map
 from ..map.weights import WeightScheme, fixed, mean_value, normalize, uniform
-from ..mesh.connectivity import one_rings
+from ..mesh.connectivity import rings_of
 from ..mesh.distortion import l2_stretch, vertex_stretches
 from ..mesh.make import Meshed
-from ..solve.systems import Solver
+from ..solve.solver import Solver
 from ..typing import UV, Loop, Points, Triangles
 from .on_mesh import is_positive, uv_on_mesh
 from .rule import Chart
@@ -66,7 +66,7 @@ def relaxations(
     points: Points, loop: Loop, boundary_uv: UV, triangles: Triangles, scheme: WeightScheme, solver: Solver | None
 ) -> Iterator[Parameterization]:
     """Map a mesh again and again, each time with weights divided by the last map's stretch at the neighbour."""
-    rings = one_rings(triangles, len(points))
+    rings = rings_of(triangles, len(points))
     weights = scheme(points, rings)
     while True:
         mapped = solve_map(points, loop, boundary_uv, rings, weights=fixed(weights), solver=solver)

@@ -3,9 +3,9 @@
 from functools import partial
 
 from ..errors import InputError
-from ..map.convex_combination import Parameterization, parameterize
+from ..map.convex_combination import Parameterization, map_points
 from ..mesh.make import Meshed
-from ..solve.systems import Solver
+from ..solve.solver import Solver
 from ..typing import UV, Loop, Points
 from .rule import Chart
 
@@ -23,4 +23,4 @@ def uv_of_points(
     """
     if meshed.neighborhoods is None or meshed.weights is None:
         raise InputError("the mesh was made without a map, so it has no parameters of the points; use parameterize")
-    return parameterize(points, loop, boundary_uv, meshed.neighborhoods, weights=meshed.weights, solver=solver)
+    return map_points(points, loop, boundary_uv, meshed.neighborhoods, weights=meshed.weights, solver=solver)

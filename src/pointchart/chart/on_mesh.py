@@ -12,12 +12,13 @@ from ..errors import PointchartError, SolveError
 from ..map.convex_combination import Parameterization
 from ..map.protrusions import openings
 from ..map.weights import mean_value, uniform
-from ..mesh.connectivity import one_rings
+from ..mesh.connectivity import rings_of
 from ..mesh.make import Meshed
 from ..plane.exact_signs import orientation_signs
-from ..points.neighbors import Neighborhoods
+from ..points.neighborhoods import Neighborhoods
 from ..solve.algebraic_multigrid import multigrid
-from ..solve.systems import Solver, solve_fixed
+from ..solve.solver import Solver
+from ..solve.systems import solve_fixed
 from ..typing import UV, Loop, Points, Triangles
 from .rule import Chart
 
@@ -56,7 +57,7 @@ def uv_on_mesh(points: Points, loop: Loop, boundary_uv: UV, meshed: Meshed, solv
     Yoshizawa, Belyaev and Seidel 2004, A fast and simple stretch-minimizing mesh parameterization.
     """
     triangles = meshed.swapped.triangles
-    rings = one_rings(triangles, len(points))
+    rings = rings_of(triangles, len(points))
     if solver is None and len(points) > DIRECT_LIMIT:
         with suppress(SolveError):
             for quick in _quick_maps(points, loop, boundary_uv, rings):

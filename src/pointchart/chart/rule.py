@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from ..map.convex_combination import Parameterization
 from ..mesh.make import Meshed
-from ..solve.systems import Solver
+from ..solve.solver import Solver
 from ..typing import UV, Loop, Points
 
 ChartMap = Callable[[Points, Loop, UV, Meshed, Solver | None], Parameterization]

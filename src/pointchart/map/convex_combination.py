@@ -6,12 +6,13 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import ArrayLike
 
-from .._check import check_convex, check_loop, check_neighbors, check_points
-from .._kernels.solve.graphs import dominators
+from .._check import check_layout, check_loop, check_neighbors, check_points
 from ..errors import InputError, SolveError
-from ..points.neighbors import Neighborhoods
-from ..solve.systems import Solution, Solver, solve_fixed
-from ..typing import UV, Indices, Loop, Points
+from ..points.neighborhoods import Neighborhoods
+from ..solve.reach import check_connected
+from ..solve.solver import Solver
+from ..solve.systems import Solution, solve_fixed
+from ..typing import UV, Loop, Points
 from .weights import WeightScheme, mean_value
 
 
@@ -92,10 +93,15 @@ def parameterize(
     """
     cloud = check_points(points)
     rim = check_loop(loop, len(cloud))
-    layout = check_convex(boundary_uv)
-    if layout.shape != (len(rim), 2):
-        raise InputError(f"boundary_uv has shape {layout.shape}; the loop of {len(rim)} points needs ({len(rim)}, 2)")
+    layout = check_layout(boundary_uv, rim)
     check_neighbors(neighborhoods.indices, neighborhoods.n_points, len(cloud))
+    return map_points(cloud, rim, layout, neighborhoods, weights=weights, solver=solver)
+
+
+def map_points(
+    cloud: Points, rim: Loop, layout: UV, neighborhoods: Neighborhoods, *, weights: WeightScheme, solver: Solver | None
+) -> Parameterization:
+    """Parameterize points as `parameterize` does, by arrays that are known to be right; what is new is checked."""
     check_connected(neighborhoods, rim)
     return solve_map(cloud, rim, layout, neighborhoods, weights=weights, solver=solver)
 
@@ -107,67 +113,6 @@ def solve_map(
     matrix = _convex_matrix(weights(cloud, neighborhoods), neighborhoods, rim)
     solution = solve_fixed(matrix, rim, layout, solver=solver)
     return Parameterization(_inside(solution.values, layout), rim, solution)
-
-
-def check_connected(neighborhoods: Neighborhoods, loop: Loop) -> None:
-    """Check that every interior point reaches the boundary, by paths that do not all pass one and the same point.
-
-    Raises
-    ------
-    InputError
-        Naming the points that have no path (Proposition 3.3), or hang on one point (they collapse into it, by
-        Proposition 3.1).
-    """
-    hanging_on = cut_points(neighborhoods, loop)
-    median = int(np.median(neighborhoods.sizes))
-    lost = np.flatnonzero(hanging_on == -2)
-    if len(lost):
-        raise InputError(
-            "interior points {lost} have no path to the boundary, so their position is undetermined; use a "
-            f"larger neighbourhood (its median size is {median}), or remove them",
-            lost=lost,
-        )
-    hanging = np.flatnonzero(hanging_on >= 0)
-    if len(hanging):
-        raise InputError(
-            "interior points {hanging} reach the boundary only through point {through}, into which they would "
-            f"collapse; use a larger neighbourhood (its median size is {median}), or remove them",
-            hanging=hanging,
-            through=hanging_on[hanging[0]],
-        )
-
-
-def cut_points(neighborhoods: Neighborhoods, loop: Loop) -> Indices:
-    """Find the single point, if there is one, that all paths from each interior point to the boundary pass.
-
-    Returns
-    -------
-    (n,) int64 array: that point (the one nearest along the paths); -1 where there is none; -2 where there is no path.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> chain = Neighborhoods(np.array([0, 0, 1, 2]), np.array([0, 1]))
-    >>> cut_points(chain, np.array([0]))
-    array([-1,  0,  1])
-    """
-    n, root = neighborhoods.n_points, neighborhoods.n_points
-    is_inner = np.ones(n, bool)
-    is_inner[loop] = False
-    kept = np.repeat(is_inner, neighborhoods.sizes)
-    rows, columns = neighborhoods.rows[kept], neighborhoods.indices[kept]
-    # All boundary points lead to one root: who hangs on that alone hangs on no single point.
-    rows = np.concatenate([rows, loop])
-    columns = np.concatenate([columns, np.full(len(loop), root)])
-    graph = sp.csr_array((np.ones(len(rows), np.int8), (rows, columns)), shape=(n + 1, n + 1))
-    order = sp.csgraph.breadth_first_order(graph.T.tocsr(), root, return_predecessors=False).astype(np.int64)
-    rank = np.full(n + 1, -1, np.int64)
-    rank[order] = np.arange(len(order))
-    dominator = np.full(n + 1, -1, np.int64)
-    dominator[root] = root
-    dominators(order, graph.indptr.astype(np.int64), graph.indices.astype(np.int64), root, rank, dominator)
-    found = dominator[:n]
-    return np.where(rank[:n] < 0, -2, np.where(found == root, -1, found))
 
 
 def _convex_matrix(weights: ArrayLike, neighborhoods: Neighborhoods, loop: Loop) -> sp.csr_array:

@@ -8,10 +8,11 @@ from scipy.sparse import csr_matrix
 from scipy.sparse.csgraph import dijkstra
 
 from ..errors import PointchartError
-from ..points.neighbors import Neighborhoods
-from ..solve.systems import Solver, default_solver
+from ..points.neighborhoods import Neighborhoods
+from ..solve.solver import Solver
+from ..solve.systems import default_solver
 from ..typing import UV, Floats, Loop, Points
-from .convex_combination import Parameterization, parameterize, solve_map
+from .convex_combination import Parameterization, map_points, solve_map
 from .weights import WeightScheme, fixed, normalize
 
 COLLAPSED = 1e-11  # length of links in a domain of radius 1 below which rounding decides what lies where
@@ -106,7 +107,7 @@ def openings(
     The parameters are those of `parameterize_open`.
     """
     first, solver = weights(points, neighborhoods), solver or default_solver(len(points))
-    mapped = parameterize(points, loop, layout, neighborhoods, weights=weights, solver=solver)
+    mapped = map_points(points, loop, layout, neighborhoods, weights=weights, solver=solver)
     stretch = _log_stretch(points, mapped, neighborhoods)
     yield Opening(mapped, weights, _n_collapsed(stretch))
     if np.isnan(stretch).all():

@@ -9,11 +9,12 @@ from typing import TypeAlias
 
 import numpy as np
 
+from .._check import check_kind
 from .._kernels.map.mean_value_weights import mean_value as mean_value_kernel
 from .._kernels.map.shape_preserving_weights import shape_preserving as shape_preserving_kernel
 from .._parallel import over_ranges
-from ..errors import InputError
-from ..points.neighbors import Neighborhoods
+from ..agreement.links import Links
+from ..points.neighborhoods import Neighborhoods, PlanarStars, Rings
 from ..typing import Floats, Points, Weights
 
 LEAST_TANGENT = 1e-14  # weights stay positive between neighbours in one direction
@@ -126,9 +127,9 @@ def mean_value(points: Points, neighborhoods: Neighborhoods) -> Weights:
     >>> mean_value(plus, delaunay_star(plus, nearest(plus, 4)))[:4].round(12)
     array([0.25, 0.25, 0.25, 0.25])
     """
-    if neighborhoods.is_open is None:
-        raise InputError("mean value weights need ordered neighbours; use Delaunay stars or the rings of a mesh")
-    indptr, indices, is_open = neighborhoods.indptr, neighborhoods.indices, neighborhoods.is_open
+    sentence = "mean value weights need ordered neighbours; use Delaunay stars or the rings of a mesh"
+    rings = check_kind(neighborhoods, Rings, sentence)
+    indptr, indices, is_open = rings.indptr, rings.indices, rings.is_open
     cloud, weights = np.ascontiguousarray(points, dtype=np.float64), np.empty(len(indices))
     over_ranges(
         lambda first, last: mean_value_kernel(cloud, indptr, indices, is_open, LEAST_TANGENT, first, last, weights),
@@ -173,9 +174,9 @@ def shape_preserving(points: Points, neighborhoods: Neighborhoods) -> Weights:
     >>> shape_preserving(kite, delaunay_star(kite, nearest(kite, 4)))[:4].round(12).tolist()
     [0.375, 0.25, 0.125, 0.25]
     """
-    if neighborhoods.local is None or neighborhoods.is_open is None:
-        raise InputError("shape-preserving weights need planar positions of the neighbours; use Delaunay stars")
-    local, is_open = neighborhoods.local, neighborhoods.is_open
+    sentence = "shape-preserving weights need planar positions of the neighbours; use Delaunay stars"
+    stars = check_kind(neighborhoods, PlanarStars, sentence)
+    local, is_open = stars.local, stars.is_open
     weight = np.zeros(len(neighborhoods.indices))
     over_ranges(
         lambda first, last: shape_preserving_kernel(local, neighborhoods.indptr, is_open, first, last, weight),
@@ -192,3 +193,12 @@ def _offsets(points: Points, neighborhoods: Neighborhoods) -> Floats:
 
 def _lengths(offset: Floats) -> Floats:
     return np.asarray(np.sqrt(np.einsum("ij,ij->i", offset, offset)))
+
+
+def trusted(links: Links, scheme: WeightScheme = reciprocal_distance) -> WeightScheme:
+    """Multiply a weight scheme by the trust of links, for use on their neighbourhoods."""
+
+    def weights(points: Points, neighborhoods: Neighborhoods) -> Weights:
+        return normalize(links.trust * scheme(points, neighborhoods), neighborhoods)
+
+    return weights

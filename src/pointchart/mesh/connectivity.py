@@ -9,7 +9,7 @@ from .._kernels.mesh.drafts import Draft
 from .._kernels.mesh.half_edges import count_fans, order_rings, pair_half_edges
 from .._kernels.unsigned import unsigned
 from ..errors import InputError
-from ..points.neighbors import Neighborhoods
+from ..points.neighborhoods import Rings
 from ..typing import Indices, Loop, Points, Triangles
 
 
@@ -127,7 +127,7 @@ def fans(edges: HalfEdges, n_points: int) -> Indices:
     return count
 
 
-def one_rings(triangles: Triangles, n_points: int) -> Neighborhoods:
+def one_rings(triangles: Triangles, n_points: int) -> Rings:
     """Gather the neighbours of each point along the edges of a manifold mesh, anticlockwise.
 
     With mean value weights they give the map that Tutte's theorem guarantees to be one-to-one on a convex domain.
@@ -139,7 +139,12 @@ def one_rings(triangles: Triangles, n_points: int) -> Neighborhoods:
     >>> rings.sizes, rings.is_open
     (array([3, 3, 3, 3]), array([False,  True,  True,  True]))
     """
-    edges = half_edges(check_triangles(triangles, n_points), n_points)
+    return rings_of(check_triangles(triangles, n_points), n_points)
+
+
+def rings_of(triangles: Triangles, n_points: int) -> Rings:
+    """Gather rings as `one_rings` does, of triangles whose corners are known to be points."""
+    edges = half_edges(triangles, n_points)
     pinched = int((fans(edges, n_points) > 1).sum())
     if edges.n_overfull or pinched:
         raise InputError(
@@ -154,4 +159,4 @@ def one_rings(triangles: Triangles, n_points: int) -> Neighborhoods:
     indptr = np.concatenate([[0], np.cumsum(sizes)])
     indices, is_open = np.empty(indptr[-1], np.int32), np.empty(n_points, np.bool_)
     order_rings(edges.origins, edges.twins, first, indptr, indices, is_open)
-    return Neighborhoods(indptr, indices, None, is_open)
+    return Rings(indptr, indices, is_open)

@@ -5,7 +5,7 @@ import numpy as np
 from .._kernels.mesh.triangle_shapes import measure_stretches
 from .._parallel import over_ranges
 from ..points.morton import morton_order
-from ..points.neighbors import BoxTree
+from ..points.trees import BoxTree
 from ..typing import UV, Floats, Points, Triangles
 from .quality import areas, plane_areas
 

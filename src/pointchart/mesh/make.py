@@ -6,13 +6,13 @@ import numpy as np
 
 from .._kernels.mesh.put_back import JOURNAL
 from ..agreement.agreed_surface import Patchwork
-from ..agreement.links import Links, trusted
+from ..agreement.links import Links
 from ..clock import StageClock
-from ..map.convex_combination import Parameterization, parameterize
+from ..map.convex_combination import Parameterization, map_points
 from ..map.protrusions import parameterize_open
-from ..map.weights import WeightScheme
-from ..points.neighbors import Neighborhoods
-from ..solve.systems import Solver
+from ..map.weights import WeightScheme, trusted
+from ..points.neighborhoods import Neighborhoods
+from ..solve.solver import Solver
 from ..typing import UV, Loop, Points, Triangles
 from .assembly import assemble
 from .connectivity import start_draft
@@ -93,7 +93,7 @@ def mesh_once(
 ) -> Meshed:
     """Map the points, triangulate their parameters, swap edges in space: the paper's way."""
     with clock("map"):
-        first_map = parameterize(points, loop, layout, neighborhoods, weights=weights, solver=solver)
+        first_map = map_points(points, loop, layout, neighborhoods, weights=weights, solver=solver)
     with clock("triangulate"):
         triangles = triangulate(separate(first_map.uv, first_map.loop), first_map.loop)
     with clock("swap"):

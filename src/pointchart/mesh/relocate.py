@@ -10,7 +10,7 @@ from .._kernels.mesh.energy import total_energy
 from .._kernels.mesh.put_back import JOURNAL
 from .._kernels.mesh.put_back import relocate as relocate_kernel
 from .._parallel import over_ranges
-from ..points.neighbors import Neighborhoods
+from ..points.neighborhoods import Neighborhoods
 from ..typing import Indices, Mask, Points, Triangles
 from .connectivity import start_draft
 

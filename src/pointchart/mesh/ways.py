@@ -3,15 +3,18 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from ..agreement.links import link_stars, tie_down, trusted
+from .._check import check_neighbors
+from ..agreement.links import link_stars, tie_down
 from ..boundary.bounded import Survey
 from ..boundary.layout import chord_length_on_circle
 from ..clock import StageClock
-from ..map.weights import WeightScheme, mean_value
-from ..points.neighbors import Neighborhoods, nearest
-from ..points.stars import nearest_star
+from ..map.weights import WeightScheme, mean_value, trusted
+from ..points.neighborhoods import Neighborhoods
+from ..points.neighbors import nearest_rows
+from ..points.stars import planar_stars, star_and_sides
 from ..points.surroundings import NEAREST
-from ..solve.systems import Solver, default_solver
+from ..solve.solver import Solver
+from ..solve.systems import default_solver
 from ..typing import Points
 from .delaunay_swaps import swap_to_delaunay
 from .make import Meshed, mesh_by_agreement, mesh_by_links, mesh_once
@@ -60,7 +63,7 @@ def _by_links(survey: Survey, way: Way, clock: StageClock) -> Meshed:
     points, rim, near = survey.cloud.points, survey.loop, survey.vicinity
     circle, solver = chord_length_on_circle(points, rim), way.solver or default_solver(len(points))
     with clock("neighbours"):
-        links = tie_down(points, link_stars(near.star, also=nearest_star(points, near.around)), rim)
+        links = tie_down(points, link_stars(near.star, also=star_and_sides(points, near.around)[0]), rim)
     if way.swaps.from_delaunay:
         return mesh_by_links(points, rim, circle, links, near.around, solver=solver, clock=clock)
     graph, scheme = links.neighborhoods, trusted(links)
@@ -72,6 +75,7 @@ def _by_neighborhoods(survey: Survey, way: Way, clock: StageClock) -> Meshed:
     circle, solver = chord_length_on_circle(points, rim), way.solver or default_solver(len(points))
     with clock("neighbours"):
         neighborhoods = (way.connect or default_stars)(points * survey.cloud.scale)
+    check_neighbors(neighborhoods.indices, neighborhoods.n_points, len(points))
     first = swap_to_delaunay if way.swaps.from_delaunay else way.swaps
     weights = way.weights or mean_value
     return mesh_once(points, rim, circle, neighborhoods, weights=weights, swap=first, solver=solver, clock=clock)
@@ -79,4 +83,4 @@ def _by_neighborhoods(survey: Survey, way: Way, clock: StageClock) -> Meshed:
 
 def default_stars(points: Points) -> Neighborhoods:
     """Find the Delaunay stars of the paper's method 3 where nothing else is asked for."""
-    return nearest_star(points, nearest(points, NEAREST))
+    return planar_stars(points, nearest_rows(points, NEAREST))

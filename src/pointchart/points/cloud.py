@@ -69,7 +69,11 @@ def prepare(points: ArrayLike) -> Cloud:
     >>> cloud.rows.tolist(), cloud.places.tolist(), cloud.n_repeated
     ([1, 3, 4, 0], [3, 0, 3, 1, 2], 1)
     """
-    scan = check_points(points)
+    return made_ready(check_points(points))
+
+
+def made_ready(scan: Points) -> Cloud:
+    """Prepare a scan as `prepare` does, after its first check; that it has distinct points enough is checked here."""
     keys = morton_keys(scan)
     order = np.argsort(keys, kind="stable")
     first = _first_rows(scan, order, keys[order])

@@ -1,75 +1,16 @@
 """Neighbourhoods of points: balls and the nearest (paper, section 4)."""
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
-
 import numpy as np
 from numpy.typing import ArrayLike
 
 from .._check import check_neighbors, check_points
-from .._kernels.points.box_tree import LEAF, bound_boxes, find_nearest, middle_distances
-from .._kernels.unsigned import unsigned
+from .._kernels.points.box_tree import middle_distances
 from .._parallel import over_ranges
 from ..errors import InputError
-from ..typing import Floats, Indices, Mask, Points
+from ..typing import Floats, Points
 from .morton import morton_order
-
-if TYPE_CHECKING:  # what a short run does not need is imported where it is used
-    from scipy.spatial import cKDTree
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Neighborhoods:
-    """The neighbours of every point, row by row (compressed sparse rows).
-
-    Attributes
-    ----------
-    indptr : (n + 1,) int64
-        Point i has the neighbours ``indices[indptr[i]:indptr[i + 1]]``.
-    indices : (nnz,) int32 or int64
-        Neighbours; never the point itself, none twice in a row.
-    local : (nnz, 2) float64 or None
-        Positions of the neighbours in the tangent plane of their centre, if they are ordered: anticlockwise.
-    is_open : (n,) bool or None
-        For ordered neighbours: whether the star has a gap of at least pi, as it has on the boundary. The gap then lies
-        between the last neighbour and the first.
-    width : (n,) float64 or None
-        For Delaunay stars: the largest radius of a circle through the centre and two neighbours that follow each other;
-        infinite if the star is open.
-    """
-
-    indptr: Indices
-    indices: Indices
-    local: Floats | None = None
-    is_open: Mask | None = None
-    width: Floats | None = None
-
-    @property
-    def n_points(self) -> int:
-        """Number of points."""
-        return len(self.indptr) - 1
-
-    @property
-    def sizes(self) -> Indices:
-        """Number of neighbours of each point, (n,)."""
-        return np.diff(self.indptr)
-
-    @property
-    def table(self) -> tuple[Indices, Indices]:
-        """`indptr` as uint64 and `indices` as uint32, as compiled loops take them; a copy of indices that are int64."""
-        return unsigned(np.asarray(self.indptr, np.int64)), unsigned(np.asarray(self.indices, np.int32))
-
-    @property
-    def rows(self) -> Indices:
-        """The centre of every neighbour, (nnz,)."""
-        return np.repeat(np.arange(self.n_points), self.sizes)
-
-
-def from_pairs(rows: Indices, columns: Indices, n_points: int) -> Neighborhoods:
-    """Gather (centre, neighbour) pairs, sorted by centre, into neighbourhoods."""
-    indptr = np.zeros(n_points + 1, np.int64)
-    np.cumsum(np.bincount(rows, minlength=n_points), out=indptr[1:])
-    return Neighborhoods(indptr, np.ascontiguousarray(columns, dtype=np.int64))
+from .neighborhoods import Neighborhoods, from_pairs, rectangular
+from .trees import BoxTree, search
 
 
 def ball(points: ArrayLike, radius: float | Floats) -> Neighborhoods:
@@ -171,72 +112,16 @@ def nearest(points: ArrayLike, k: int = 20) -> Neighborhoods:
     cloud = check_points(points)
     if k < 1:
         raise InputError(f"k is {k}; every point needs at least one neighbour, and 8 to 30 work well")
+    return nearest_rows(cloud, k)
+
+
+def nearest_rows(cloud: Points, k: int) -> Neighborhoods:
+    """Find the nearest as `nearest` does, of points that are known to be right."""
     order = morton_order(cloud)
     place = np.empty(len(cloud), np.int32)
     place[order] = np.arange(len(cloud), dtype=np.int32)
     found = BoxTree(np.ascontiguousarray(cloud[order])).nearest(k, place)
     return rectangular(order.astype(np.int32)[found])
-
-
-def rectangular(found: Indices) -> Neighborhoods:
-    """Make neighbourhoods of the same number of neighbours for each point, (n, k)."""
-    n, k = found.shape
-    return Neighborhoods(np.arange(0, n * k + 1, k), found.ravel())
-
-
-class BoxTree:
-    """A search tree over points that are in spatial order already; see `morton_order`.
-
-    Parameters
-    ----------
-    points : (n, 3) float64 array
-
-    Examples
-    --------
-    >>> BoxTree(np.array([[0.0, 0, 0], [1, 0, 0], [3, 0, 0], [3, 1, 0]])).nearest(1).tolist()
-    [[1], [0], [3], [2]]
-    """
-
-    def __init__(self, points: Points) -> None:
-        leaves = 1
-        while leaves * LEAF < len(points):
-            leaves *= 2
-        self._points = points
-        self._low, self._high = np.empty((2 * leaves, 3)), np.empty((2 * leaves, 3))
-        bound_boxes(points, self._low, self._high)
-
-    def nearest(self, k: int, queries: Indices | None = None) -> Indices:
-        """Find the `k` nearest others, if there are as many, of some points or of all, nearest first: (q, k) int32."""
-        points = self._points
-        places = np.arange(len(points), dtype=np.uint32) if queries is None else queries.astype(np.uint32)
-        found = np.empty((len(places), min(k, len(points) - 1)), np.uint32)
-        if found.size == 0:
-            return found.view(np.int32)
-
-        def find(first: int, last: int) -> None:
-            squares = np.empty((last - first, found.shape[1]))
-            find_nearest(points, self._low, self._high, places[first:last], found[first:last], squares)
-
-        over_ranges(find, len(places))
-        return found.view(np.int32)
-
-
-def search(tree: "cKDTree", points: Floats, k: int) -> tuple[Floats, Indices]:
-    """Find the `k` nearest points of a tree on all cores.
-
-    The tree's own threads outlive an interrupt and then read freed memory, so the threads are ours.
-
-    Returns
-    -------
-    distance, index : (n, k) arrays, nearest first.
-    """
-    distance, index = np.empty((len(points), k)), np.empty((len(points), k), np.int64)
-
-    def query(first: int, last: int) -> None:
-        distance[first:last], index[first:last] = tree.query(points[first:last], k=np.arange(1, k + 1))
-
-    over_ranges(query, len(points))
-    return distance, index
 
 
 def spacing(points: ArrayLike, *, k: int = 6, around: Neighborhoods | None = None) -> Floats:
@@ -263,6 +148,11 @@ def spacing(points: ArrayLike, *, k: int = 6, around: Neighborhoods | None = Non
     check_neighbors(found.indices, found.n_points, len(cloud))
     if found.sizes.min() != found.sizes.max():
         raise InputError("the spacing needs the same number of nearest neighbours for every point; use nearest")
+    return median_distances(cloud, found, k)
+
+
+def median_distances(cloud: Points, found: Neighborhoods, k: int = 6) -> Floats:
+    """Measure the local spacing as `spacing` does, by nearest points that are known to be right."""
     count = min(k, int(found.sizes[0]))
     # Neighbours are sorted by distance: the median is that of the middle one, or the mean of the middle two.
     one, other, result = (count - 1) // 2, count // 2, np.empty(len(cloud))

@@ -7,7 +7,8 @@ from .._kernels.solve.graphs import join_parts
 from ..errors import InputError, Remedy
 from ..typing import Floats, Indices, Points
 from .cloud import prepare
-from .neighbors import Neighborhoods, nearest
+from .neighborhoods import Neighborhoods
+from .neighbors import nearest
 from .neighbors import spacing as local_spacing
 from .surroundings import NEAREST
 

@@ -10,7 +10,8 @@ from .._kernels.points.inversion import delaunay_stars as stars_kernel
 from .._kernels.points.tangent_planes import fit_planes
 from .._parallel import over_ranges
 from ..typing import Floats, Indices, Mask, Points
-from .neighbors import BoxTree, Neighborhoods
+from .neighborhoods import Neighborhoods, PlanarStars, Stars
+from .trees import BoxTree
 
 STEEPEST = 0.8  # sine of the steepest neighbour against the tangent plane; steeper ones lie on another sheet
 FADING = 0.8  # the farthest neighbours have 4% of the weight of the nearest in a plane: they may lie on another sheet
@@ -42,6 +43,11 @@ def normals(points: ArrayLike, around: Neighborhoods, *, fading: float = 0.0) ->
     """
     cloud = check_points(points)
     check_neighbors(around.indices, around.n_points, len(cloud))
+    return plane_normals(cloud, around, fading)
+
+
+def plane_normals(cloud: Points, around: Neighborhoods, fading: float = 0.0) -> Floats:
+    """Return the normals that `normals` does, of points and neighbours that are known to be right."""
     return _planes(cloud, around, fading)[0]
 
 
@@ -71,11 +77,16 @@ def smooth(points: ArrayLike, around: Neighborhoods) -> Points:
     """
     cloud = check_points(points)
     check_neighbors(around.indices, around.n_points, len(cloud))
+    return on_planes(cloud, around)
+
+
+def on_planes(cloud: Points, around: Neighborhoods) -> Points:
+    """Smooth as `smooth` does, points and neighbours that are known to be right."""
     normal, offset = _planes(cloud, around, FADING)
     return np.asarray(cloud + offset[:, None] * normal)
 
 
-def delaunay_star(points: ArrayLike, around: Neighborhoods, *, planes: Neighborhoods | None = None) -> Neighborhoods:
+def delaunay_star(points: ArrayLike, around: Neighborhoods, *, planes: Neighborhoods | None = None) -> PlanarStars:
     """Find the Delaunay neighbours of each point in its tangent plane: the neighbourhood of the paper's method 3.
 
     The candidates are projected to the least-squares plane, where the neighbours of the centre in their Delaunay
@@ -93,8 +104,8 @@ def delaunay_star(points: ArrayLike, around: Neighborhoods, *, planes: Neighborh
 
     Returns
     -------
-    Neighborhoods
-        Ordered anticlockwise about the normal, with `local` and `is_open`. Normals have either sign.
+    PlanarStars
+        Anticlockwise about the normal. Normals have either sign.
 
     References
     ----------
@@ -110,7 +121,10 @@ def delaunay_star(points: ArrayLike, around: Neighborhoods, *, planes: Neighborh
     """
     cloud = check_points(points)
     check_neighbors(around.indices, around.n_points, len(cloud))
-    return _stars(cloud, normals(cloud, planes or around), around)[0]
+    if planes is not None:
+        check_neighbors(planes.indices, planes.n_points, len(cloud))
+    found, _, _, local = _stars(cloud, plane_normals(cloud, planes or around), around)
+    return PlanarStars(found.indptr, found.indices, found.is_open, found.width, local)
 
 
 class Sides(NamedTuple):
@@ -128,7 +142,7 @@ class Sides(NamedTuple):
     offset: Floats
 
 
-def nearest_star(points: ArrayLike, around: Neighborhoods) -> Neighborhoods:
+def nearest_star(points: ArrayLike, around: Neighborhoods) -> PlanarStars:
     """Find the Delaunay neighbours of each point among its nearest, and among more where its star asks for it.
 
     A star is the true one if no point beyond the candidates can lie in one of its circles: if its largest
@@ -145,7 +159,7 @@ def nearest_star(points: ArrayLike, around: Neighborhoods) -> Neighborhoods:
 
     Returns
     -------
-    Neighborhoods
+    PlanarStars
         As those of `delaunay_star`.
 
     Examples
@@ -156,55 +170,66 @@ def nearest_star(points: ArrayLike, around: Neighborhoods) -> Neighborhoods:
     >>> sorted(nearest_star(tracks, near).indices[nearest_star(tracks, near).rows == 17].tolist())
     [5, 16, 18, 29]
     """
-    return star_and_sides(points, around)[0]
+    cloud = check_points(points)
+    check_neighbors(around.indices, around.n_points, len(cloud))
+    return planar_stars(cloud, around)
 
 
-def star_and_sides(points: ArrayLike, around: Neighborhoods, *, local: bool = True) -> tuple[Neighborhoods, Sides]:
-    """Find stars as `nearest_star` does, and what the nearest points say of a boundary.
+def planar_stars(cloud: Points, around: Neighborhoods) -> PlanarStars:
+    """Find stars as `nearest_star` does, of points and neighbours that are known to be right."""
+    found, _, local = _widened(cloud, around)
+    return PlanarStars(found.indptr, found.indices, found.is_open, found.width, local)
+
+
+def star_and_sides(cloud: Points, around: Neighborhoods) -> tuple[Stars, Sides]:
+    """Find stars as `nearest_star` does, without positions, and what the nearest points say of a boundary.
 
     Parameters
     ----------
-    points, around
-        As for `nearest_star`.
-    local : bool
-        Whether positions in the planes are kept.
+    cloud, around
+        As for `nearest_star`, but known to be right.
 
     Returns
     -------
-    Neighborhoods
+    Stars
     Sides
     """
-    cloud = check_points(points)
-    check_neighbors(around.indices, around.n_points, len(cloud))
-    normal = normals(cloud, around, fading=FADING)
-    found, is_short, sides = _stars(cloud, normal, around, local=local)
+    found, sides, _ = _widened(cloud, around, has_places=False)
+    return found, sides
+
+
+def _widened(cloud: Points, around: Neighborhoods, *, has_places: bool = True) -> tuple[Stars, Sides, Floats]:
+    """Find stars among the nearest, and among more where they ask for it."""
+    normal = plane_normals(cloud, around, FADING)
+    found, is_short, sides, local = _stars(cloud, normal, around, has_places=has_places)
     short = np.flatnonzero(is_short)
     wide = min(WIDER * int(around.sizes.max()), len(cloud) - 1)
     if len(short) == 0 or wide <= around.sizes.max():
-        return found, sides
+        return found, sides, local
     sizes = np.zeros(len(cloud), np.int64)
     sizes[short] = wide
     candidates = BoxTree(cloud).nearest(wide, short)
-    widened = Neighborhoods(np.concatenate([[0], np.cumsum(sizes)]), candidates.ravel())
-    return _with_rows(found, short, _stars(cloud, normal, widened, local=local)[0]), sides
+    more = Neighborhoods(np.concatenate([[0], np.cumsum(sizes)]), candidates.ravel())
+    by, _, _, by_local = _stars(cloud, normal, more, has_places=has_places)
+    joined, places = _with_rows(found, local, short, by, by_local)
+    return joined, sides, places
 
 
-def _with_rows(found: Neighborhoods, rows: Indices, by: Neighborhoods) -> Neighborhoods:
-    """Take some stars from other ones."""
+def _with_rows(found: Stars, local: Floats, rows: Indices, by: Stars, by_local: Floats) -> tuple[Stars, Floats]:
+    """Take some stars, and positions if there are any, from other ones."""
     sizes = found.sizes.copy()
     sizes[rows] = by.sizes[rows]
     indptr = np.concatenate([[0], np.cumsum(sizes)])
     is_new = np.zeros(found.n_points, bool)
     is_new[rows] = True
     of_new, of_old = np.repeat(is_new, sizes), np.repeat(~is_new, found.sizes)
-    indices, local = np.empty(indptr[-1], found.indices.dtype), None
+    indices, places = np.empty(indptr[-1], found.indices.dtype), local
     indices[of_new], indices[~of_new] = by.indices, found.indices[of_old]
-    if found.local is not None:
-        local = np.empty((indptr[-1], 2))
-        local[of_new], local[~of_new] = by.local, found.local[of_old]
-    is_open = np.where(is_new, np.asarray(by.is_open), np.asarray(found.is_open))
-    width = np.where(is_new, np.asarray(by.width), np.asarray(found.width))
-    return Neighborhoods(indptr, indices, local, is_open, width)
+    if len(local):
+        places = np.empty((indptr[-1], 2))
+        places[of_new], places[~of_new] = by_local, local[of_old]
+    is_open, width = np.where(is_new, by.is_open, found.is_open), np.where(is_new, by.width, found.width)
+    return Stars(indptr, indices, is_open, width), places
 
 
 def _planes(cloud: Points, around: Neighborhoods, fading: float) -> tuple[Floats, Floats]:
@@ -218,9 +243,12 @@ def _planes(cloud: Points, around: Neighborhoods, fading: float) -> tuple[Floats
 
 
 def _stars(
-    cloud: Points, normal: Floats, around: Neighborhoods, *, local: bool = True
-) -> tuple[Neighborhoods, Mask, Sides]:
-    """Find all stars; tell, too, which closed ones are wider than their candidates, nearest first, reach."""
+    cloud: Points, normal: Floats, around: Neighborhoods, *, has_places: bool = True
+) -> tuple[Stars, Mask, Sides, Floats]:
+    """Find all stars; tell, too, which closed ones are wider than their candidates, nearest first, reach.
+
+    The last array, (nnz, 2), holds positions in the planes; it is empty if none are asked for.
+    """
     n = len(cloud)
     count, is_open, is_short, width = np.empty(n, np.int64), np.empty(n, np.bool_), np.empty(n, np.bool_), np.empty(n)
     sides, rows = Sides(np.empty(n), np.empty(n)), around.table
@@ -231,9 +259,9 @@ def _stars(
         star, places = np.empty(room, np.uint32), np.empty((room, 2))
         where = cloud, normal, *rows, STEEPEST, first, last
         size = stars_kernel(*where, star, places, count, is_open, is_short, width, *sides)
-        parts[first] = star[:size].view(np.int32).copy(), places[: size if local else 0].copy()
+        parts[first] = star[:size].view(np.int32).copy(), places[: size if has_places else 0].copy()
 
     over_ranges(find, n)
     indices, places = (np.concatenate([parts[first][k] for first in sorted(parts)]) for k in range(2))
     indptr = np.concatenate([[0], np.cumsum(count)])
-    return Neighborhoods(indptr, indices, places if local else None, is_open, width), is_short, sides
+    return Stars(indptr, indices, is_open, width), is_short, sides, places

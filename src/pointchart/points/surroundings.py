@@ -6,10 +6,11 @@ from numpy.typing import ArrayLike
 
 from .._check import check_points
 from ..typing import Floats, Keys, Points
-from .neighbors import BoxTree, Neighborhoods, rectangular
-from .neighbors import spacing as local_spacing
-from .stars import Sides, smooth, star_and_sides
+from .neighborhoods import Neighborhoods, Stars, rectangular
+from .neighbors import median_distances
+from .stars import Sides, on_planes, star_and_sides
 from .ties import break_ties, tie_keys
+from .trees import BoxTree
 
 # Two rings of 6 and 12 points, and a little. On 14 real scans 0.5 to 9% of the stars reach beyond, across the lines of
 # a laser scanner 15% and on a strip beside itself 24%; those are searched again, among more.
@@ -28,9 +29,8 @@ class Vicinity:
         Local spacing, in the unit of the points.
     smoothed : (n, 3) float64
         The points with less noise across the surface.
-    star : Neighborhoods
-        Delaunay stars of the smoothed points, in general position: neighbouring stars can agree on grids too. Without
-        positions in the planes.
+    star : Stars
+        Of the smoothed points, in general position: neighbouring stars can agree on grids too.
     sides : Sides
         What the nearest points say of a boundary.
     """
@@ -38,7 +38,7 @@ class Vicinity:
     around: Neighborhoods
     spacing: Floats
     smoothed: Points
-    star: Neighborhoods
+    star: Stars
     sides: Sides
 
 
@@ -63,10 +63,14 @@ def explore(points: ArrayLike, *, keys: Keys | None = None) -> Vicinity:
     >>> int(vicinity.around.sizes.min()), float(vicinity.spacing.min())
     (20, 1.0)
     """
-    cloud = check_points(points)
+    return look_around(check_points(points), keys)
+
+
+def look_around(cloud: Points, keys: Keys | None = None) -> Vicinity:
+    """Find out what `explore` does, of points that are known to be right."""
     around = rectangular(BoxTree(cloud).nearest(NEAREST))
-    spacing = local_spacing(cloud, around=around)
-    smoothed = smooth(cloud, around)
+    spacing = median_distances(cloud, around)
+    smoothed = on_planes(cloud, around)
     keys = tie_keys(cloud) if keys is None else keys  # of the points as they are: smoothed, they are rounded
-    star, sides = star_and_sides(break_ties(smoothed, spacing, keys), around, local=False)
+    star, sides = star_and_sides(break_ties(smoothed, spacing, keys), around)
     return Vicinity(around, spacing, smoothed, star, sides)

@@ -2,12 +2,12 @@
 
 import numpy as np
 
-from .._check import check_points
 from .._parallel import over_ranges
 from ..typing import Floats, Keys, Points
 
 TIE_BREAK = 1e-2  # spacings, a choice: over the rounding of grids in files, under what changes stars that have no ties
 MANTISSA, EXPONENT = np.uint64(52), np.uint64(0x7FF)  # bits of a double: places of the one, mask of the other
+ZERO = np.uint64(2**64 - 1)  # in place of the bits of 0: those of a scaled power of two may be 0
 GOLDEN = 0x9E3779B97F4A7C15  # 2^64 over the golden ratio: the step of SplitMix64 from one number to the next
 
 
@@ -30,7 +30,7 @@ def tie_keys(points: Points) -> Keys:
         largest = (bits >> MANTISSA & EXPONENT).max(axis=0) << MANTISSA
         key = np.zeros(last - first, np.uint64)
         for axis in range(3):
-            key = _mixed(key + np.where(bits[axis] == 0, bits[axis], bits[axis] - largest), axis + 1)
+            key = _mixed(key + np.where(bits[axis] == 0, ZERO, bits[axis] - largest), axis + 1)
         keys[first:last] = key
 
     over_ranges(find, len(points))
@@ -61,17 +61,16 @@ def break_ties(points: Points, spacing: Floats, keys: Keys | None = None) -> Poi
     >>> bool(np.abs(break_ties(corners, np.ones(4)) - corners).max() < 1e-2)
     True
     """
-    cloud = check_points(points)
-    keys = tie_keys(cloud) if keys is None else keys
-    moved = np.empty_like(cloud)
+    keys = tie_keys(points) if keys is None else keys
+    moved = np.empty_like(points)
 
     def move(first: int, last: int) -> None:
         for axis in range(3):
             # 53 bits make a number in [0, 2), less 1.
             way = np.ldexp((_mixed(keys[first:last], axis + 1) >> np.uint64(11)).astype(np.float64), -52) - 1.0
-            moved[first:last, axis] = cloud[first:last, axis] + TIE_BREAK * spacing[first:last] * way
+            moved[first:last, axis] = points[first:last, axis] + TIE_BREAK * spacing[first:last] * way
 
-    over_ranges(move, len(cloud))
+    over_ranges(move, len(points))
     return moved
 
 

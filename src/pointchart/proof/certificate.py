@@ -14,7 +14,7 @@ from ..mesh.connectivity import HalfEdges, boundary_loops, fans, half_edges
 from ..mesh.planar_delaunay import coinciding
 from ..plane.exact_signs import is_simple, orientation_signs
 from ..points.neighbors import spacing as local_spacing
-from ..typing import UV, Floats, Loop, Points
+from ..typing import UV, Floats, Loop, Points, Triangles
 
 FOLD_COSINE = np.cos(np.deg2rad(150.0))  # of the turn at an edge: a choice, as folds are counted and never refused
 
@@ -153,14 +153,21 @@ def certify(
     faces = check_triangles(triangles, len(cloud))
     if holes < 0:
         raise InputError(f"a disc cannot have {holes} holes; give 0 or more")
+    plane = None if uv is None else _checked_uv(uv, len(cloud))
+    asked = None if loop is None else check_loop(loop, len(cloud))
+    return prove(cloud, faces, plane, asked, spacing=local_spacing(cloud) if spacing is None else spacing, holes=holes)
+
+
+def prove(
+    cloud: Points, faces: Triangles, plane: UV | None, asked: Loop | None, *, spacing: Floats, holes: int
+) -> Certificate:
+    """Certify as `certify` does, by arrays that are known to be right in shape."""
     edges = half_edges(faces, len(cloud))
     fan_counts = fans(edges, len(cloud))
     n_edges, n_overfull = _count_edges(edges)
     is_manifold = edges.n_overfull == 0 and not (fan_counts > 1).any()
     loops = boundary_loops(edges) if is_manifold else []
-    plane = None if uv is None else _checked_uv(uv, len(cloud))
-    asked = None if loop is None else check_loop(loop, len(cloud))
-    longest, folds = _measure(cloud, edges, local_spacing(cloud) if spacing is None else spacing)
+    longest, folds = _measure(cloud, edges, spacing)
     return Certificate(
         n_points=len(cloud),
         n_triangles=len(faces),

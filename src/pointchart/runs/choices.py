@@ -24,7 +24,7 @@ from ..mesh.ways import Connect
 from ..pipeline import LayoutRule
 from ..points import neighbors, stars
 from ..points import surroundings as vicinity
-from ..points.neighbors import Neighborhoods
+from ..points.neighborhoods import Neighborhoods
 from ..typing import UV, Floats, Indices, Loop, Points
 from .option_values import Chart, Domain, Holes, Neighbors, Spacing, SurfaceDomain, Swap, Weighting
 

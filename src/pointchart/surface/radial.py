@@ -14,9 +14,9 @@ from .._parallel import over_ranges
 from ..errors import InputError, SolveError
 from ..mesh.planar_delaunay import coinciding
 from ..points.morton import morton_order
-from ..points.neighbors import search
+from ..points.trees import search
 from ..proof.intersections import box_tree
-from ..solve.systems import ONE_THREAD
+from ..solve.krylov import ONE_THREAD
 from ..typing import UV, Floats, Indices, Points
 
 NEARBY = 48  # points of a spline: eight times the six that a quadratic needs; a choice, as 30 to 100 work well

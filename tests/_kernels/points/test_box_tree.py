@@ -5,7 +5,7 @@ from hypothesis import strategies as st
 from kernel_cases.samples import SHAPE
 from strategies import integer_sets, seeds
 
-from pointchart.points.neighbors import BoxTree
+from pointchart.points.trees import BoxTree
 
 
 def check_nearest(points, k, queries=None):

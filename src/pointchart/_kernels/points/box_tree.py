@@ -48,12 +48,36 @@ def goes_first(points, i, j):
     return points[i, 2] < points[j, 2]
 
 
+@njit(cache=True, nogil=True, inline="always")
+def take_in(points, i, begin, end, row, far, count, worst):
+    """Put points begin..end other than i in among the nearest of i; return how many there are, and how far they reach.
+
+    By insertion, as rows are short and mostly in order.
+    """
+    most = len(row)
+    for j in range(begin, end):
+        dx, dy, dz = points[j, 0] - points[i, 0], points[j, 1] - points[i, 1], points[j, 2] - points[i, 2]
+        d = dx * dx + dy * dy + dz * dz
+        if d > worst or j == i or (count == most and d == worst and not goes_first(points, j, row[most - 1])):
+            continue
+        k = count if count < most else most - 1
+        count = min(count + 1, most)
+        while k > 0 and (far[k - 1] > d or (far[k - 1] == d and goes_first(points, j, row[k - 1]))):
+            far[k], row[k] = far[k - 1], row[k - 1]
+            k -= 1
+        far[k], row[k] = d, j
+        if count == most:
+            worst = far[most - 1]
+    return count, worst
+
+
 @njit(cache=True, nogil=True)
 def find_nearest(points, low, high, queries, found, squares):
     """Write the nearest other points of some points, nearest first, and their squared distances.
 
     Of points at the same distance those of smaller coordinates count as nearer, wherever the tree has them: the nearest
-    of a point are the same in any part of the cloud that holds them. As far from a point as the farthest found for the one before it, plus the way between the two, there are enough.
+    of a point are the same in any part of the cloud that holds them. As far from a point as the farthest found for the
+    one before it, plus the way between the two, there are enough.
     """
     n, leaves, most = len(points), len(low) // 2, found.shape[1]
     stack, square = np.empty(DEEPEST, np.int64), np.empty(DEEPEST)
@@ -85,22 +109,7 @@ def find_nearest(points, low, high, queries, found, squares):
                         size += 1
                     continue
                 begin = (node - leaves) * LEAF
-                # By insertion, as rows are short and mostly in order.
-                for j in range(begin, min(begin + LEAF, n)):
-                    dx, dy, dz = points[j, 0] - x, points[j, 1] - y, points[j, 2] - z
-                    d = dx * dx + dy * dy + dz * dz
-                    if d > worst or j == i:
-                        continue
-                    if count == most and d == worst and not goes_first(points, j, row[most - 1]):
-                        continue
-                    k = count if count < most else most - 1
-                    count = min(count + 1, most)
-                    while k > 0 and (far[k - 1] > d or (far[k - 1] == d and goes_first(points, j, row[k - 1]))):
-                        far[k], row[k] = far[k - 1], row[k - 1]
-                        k -= 1
-                    far[k], row[k] = d, j
-                    if count == most:
-                        worst = far[most - 1]
+                count, worst = take_in(points, i, begin, min(begin + LEAF, n), row, far, count, worst)
             if path == 1:
                 break
             # One level up, of which this half has been searched: on with the other.
