@@ -17,6 +17,7 @@ from pointchart._kernels.mesh import half_edges as half_edge_kernels
 from pointchart._kernels.mesh import pockets as assemble
 from pointchart._kernels.mesh import put_back as relocate
 from pointchart._kernels.mesh import recover_edges as recover
+from pointchart._kernels.plane import exact_turns
 from pointchart._kernels.points import box_tree as trees
 from pointchart._kernels.points import inversion as stars
 from pointchart._kernels.points import tangent_planes as planes
@@ -184,6 +185,7 @@ PENTAGRAM = np.array([[np.cos(t), np.sin(t)] for t in np.arange(5) * 0.8 * np.pi
 X_ENDS = np.column_stack([PENTAGRAM[:, 0], np.roll(PENTAGRAM[:, 0], -1)])
 SPANS = np.array([[0.0, 0, 0], [4, 0, 0], [0, 4, 0], [1, 1, -1], [1, 1, 1], [9, 9, 0], [5, 5, 0], [6, 5, 0], [5, 6, 0]])
 SPAN_BOXES = box_tree(SPANS[::3], SPANS[1::3], SPANS[2::3])
+DIGITS = np.arange(exact_turns.N_DIGITS) - 9
 SWEEP = (np.argsort(X_ENDS.min(axis=1)), X_ENDS.min(axis=1), X_ENDS.max(axis=1))
 
 CUBICS = interpolate_clough_tocher(SHAPE.points, SHAPE.uv, SHAPE.triangles)
@@ -391,23 +393,40 @@ CASES = {
     "coarsen.transpose": lambda: (*TO_FINE, ints(N_COARSE + 1), int32s(N_SHARES), np.zeros(N_SHARES)),
     "constrain.constrain": lambda: (draft_in_plane(), np.where(np.arange(N) == FAR[0], FAR[1], -1)),
     "constrain.edge_before": lambda: (draft_in_plane(), *FAR),
-    "constrain.exact_turn": lambda: (np.array([[0.1, 0.1], [0.2, 0.2], [0.3, 0.3]]), 0, 1, 2),
     "constrain.insert_side": lambda: (draft_in_plane(), ints(N) - 1, *FAR),
-    "constrain.sign_of_sum": lambda: (np.array([1e16, 1.0, -1e16, -1.0, 1e-30]),),
-    "constrain.two_product": lambda: (0.1, 0.3),
-    "constrain.two_sum": lambda: (1e16, 1.1),
+    "constrain.turn_of": lambda: (np.array([[0.1, 0.1], [0.2, 0.2], [0.3, 0.3]]), 0, 1, 2),
     "constrain.unfold": lambda: (draft_in_plane(), int(draft_in_plane().leaving[FAR[0]]), 2),
-    "crossings.find_crossing": lambda: (PENTAGRAM, *SWEEP, ints((320, 2))),
-    "crossings.sure_signs": lambda: (
-        np.array([[0.0, 0], [1, 1], [3, 3], [0.5, 0.6]]),
+    "exact_turns.add_part": lambda: (DIGITS.copy(), -1, (1 << 53) - 1, 77),
+    "exact_turns.add_product": lambda: (DIGITS.copy(), 0.1, -0.3),
+    "exact_turns.long_turn": lambda: (0.1, 0.1, 0.2, 0.2, 0.3, 0.3),
+    "exact_turns.measure_signs": lambda: (
+        np.array([[0.0, 0], [1, 1], [3, 3], [0.5, 0.5 + 2.0**-53]]),
         np.array([[0, 1, 2], [0, 2, 3], [0, 3, 2]]),
-        1e-15,
-        1e-300,
         0,
         3,
         np.zeros(3, np.int8),
     ),
-    "crossings.turn": lambda: (0.0, 0.0, 1.0, 0.0, 0.5, 1e-300),
+    "exact_turns.sign_of": lambda: (DIGITS.copy(),),
+    "exact_turns.sure_turn": lambda: (0.0, 0.0, 1.0, 0.0, 0.5, 1e-300),
+    "exact_turns.turn": lambda: (0.0, 0.0, 1.0, 0.0, 0.5, 1e-300),
+    "segments.do_meet": lambda: (PENTAGRAM, 0, 1, 2, 3),
+    "segments.has_crossing": lambda: (PENTAGRAM, *SWEEP),
+    "segments.measure_inside": lambda: (
+        PENTAGRAM,
+        np.roll(PENTAGRAM, -1, axis=0),
+        np.array([[0.8, 0.0], [0.0, 0.0], [0.5, PENTAGRAM[1, 1]]]),
+        0,
+        3,
+        bools(3),
+    ),
+    "segments.measure_meetings": lambda: (
+        PENTAGRAM,
+        np.roll(np.arange(5), -1),
+        np.array([[0, 2], [0, 1]]),
+        0,
+        2,
+        bools(2),
+    ),
     "curvature_swaps.area_vector": lambda: (SHAPE.points, 7, 3, 5),
     "curvature_swaps.cotangents": lambda: (SHAPE.points, 0, 1, 2),
     "curvature_swaps.distance": lambda: (SHAPE.points, 0, 1),
@@ -540,8 +559,9 @@ CASES = {
         np.arange(N, dtype=np.int32)[::-2].copy(),
         bools(N),
     ),
+    "areas.cross": lambda: (1.0, 2.0, 3.0, 4.0),
+    "areas.doubled_area": lambda: (SHAPE.uv, 0, 1, 0.1, 0.2),
     "locate.depth": lambda: (SHAPE.uv, SHAPE.triangles[5], 0.1, 0.2),
-    "locate.doubled_area": lambda: (SHAPE.uv, 0, 1, 0.1, 0.2),
     "locate.find_triangle": lambda: (CUBICS.uv, CUBICS.triangles, CUBICS.boxes, 0.1, 0.2, 1e-15),
     "locate.holds": lambda: (CUBICS.boxes, 1, 0.1, 0.2, 0.0),
     "locate.next_box": lambda: (11,),

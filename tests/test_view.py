@@ -28,12 +28,13 @@ from pointchart.app.html import OTHERWISE, dimmed_html, refused_html
 from pointchart.app.job import Cancelled, Job
 from pointchart.app.loop_by_hand import LoopByHand
 from pointchart.app.one_neighborhood import Around
-from pointchart.app.picking import Camera, inside_polygon, project
+from pointchart.app.picking import Camera, project
 from pointchart.app.step import Step
 from pointchart.boundary import is_same_loop, reversed_loop
 from pointchart.cli import aside
 from pointchart.cli.view import commands
 from pointchart.io import read_loop, write_loop
+from pointchart.plane.polygons import is_inside
 
 N = 200
 RELIEF = shapes.relief(N, seed=2)
@@ -410,7 +411,7 @@ def test_the_boundary_is_found_and_points_in_a_polygon_that_is_dragged_are_dropp
     (client,) = page.server.get_clients().values()
     before = project(page.drawing.places[TRUE], page.drawing.camera(client))
     triangle = np.array([[0.02, 0.02], [0.02, 0.98], [0.6, 0.5]])
-    within = TRUE[inside_polygon(before, triangle)]
+    within = TRUE[is_inside([triangle], before)]
     assert 3 < len(within) < len(TRUE) // 2
     for what, gone in (("Drop", within), ("Add", [])):
         drag_with_shift(window, page, triangle)

@@ -178,33 +178,3 @@ def check_neighbors(indices: Indices, n_rows: int, n_points: int) -> None:
         raise InputError(
             f"the neighbourhoods name points from {indices.min()} to {indices.max()}; they run from 0 to {n_points - 1}"
         )
-
-
-def check_convex(polygon: ArrayLike, *, is_strict: bool = False) -> UV:
-    """Return the corners of a convex polygon as (b, 2) float64, or say why they are none.
-
-    A strict one is anticlockwise and has no straight angles; any other may run either way.
-
-    Raises
-    ------
-    InputError
-        If corners repeat, the polygon turns right by more than rounding, or not once around in all.
-    """
-    corners = np.asarray(polygon, dtype=np.float64)
-    if corners.ndim != 2 or corners.shape[1] != 2 or len(corners) < 3 or not np.isfinite(corners).all():
-        raise InputError(f"the domain has shape {corners.shape}; at least 3 finite corners, (b, 2), are needed")
-    steps = np.roll(corners, -1, axis=0) - corners
-    before = np.roll(steps, 1, axis=0)
-    cross = before[:, 0] * steps[:, 1] - before[:, 1] * steps[:, 0]
-    dot = np.einsum("ij,ij->i", before, steps)
-    cross = cross if is_strict or cross.sum() > 0.0 else -cross
-    lengths = np.linalg.norm(steps, axis=1)
-    # A difference of coordinates is wrong by an ulp of their size, which turns short steps.
-    slack = 0.0 if is_strict else 1e-15 * np.abs(corners).max() * (lengths + np.roll(lengths, 1))
-    turns_once = abs(np.arctan2(cross, dot).sum() - 2.0 * np.pi) < 0.1
-    if (lengths == 0.0).any() or (cross < -slack).any() or (is_strict and (cross <= 0.0).any()) or not turns_once:
-        raise InputError(
-            "the domain is no convex polygon: give its corners in order, once around, without repetitions"
-            + (", anticlockwise, without straight angles" if is_strict else "")
-        )
-    return corners

@@ -37,7 +37,8 @@ from pointchart.cli.choices import CHARTS, Chart
 from pointchart.mesh.make import Meshed
 from pointchart.mesh.quality import area_vectors
 from pointchart.mesh.swap_rule import Swapped
-from pointchart.plane.exact_signs import is_simple, orientation_signs
+from pointchart.plane.crossings import is_simple
+from pointchart.plane.exact_signs import orientation_signs
 from pointchart.proof.certificate import check_proof
 from pointchart.report import quality_report
 

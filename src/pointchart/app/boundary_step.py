@@ -12,10 +12,11 @@ from ..boundary import perimeter, reversed_loop
 from ..errors import InputError, PointchartError
 from ..gaps.rules import place_of
 from ..io import read_loop, read_scan, write_loop
+from ..plane.polygons import is_inside
 from ..typing import UV, Floats, Indices
 from .html import said_html
 from .loop_by_hand import LoopByHand, dropped, inserted, nearest_of
-from .picking import Camera, inside_polygon, project, unproject, visible
+from .picking import Camera, project, unproject, visible
 from .session import CLOUDS, Page
 from .step import Step
 
@@ -169,7 +170,7 @@ class BoundaryStep:
             rows = np.union1d(page.hand.loop, scored)
             if not len(rows):
                 raise InputError("there are no boundary points to select yet; find the boundary first")
-            inside = rows[inside_polygon(project(drawing.places[rows], camera), polygon)]
+            inside = rows[is_inside([polygon], project(drawing.places[rows], camera))]
             if not len(inside):
                 raise InputError(
                     f"none of {len(rows)} boundary points is inside the polygon; draw it round some of them"

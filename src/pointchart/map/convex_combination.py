@@ -6,9 +6,11 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import ArrayLike
 
-from .._check import check_convex, check_loop, check_neighbors, check_points
+from .._check import check_loop, check_neighbors, check_points
 from .._kernels.solve.graphs import dominators
 from ..errors import InputError, SolveError
+from ..plane.polygons import check_convex
+from ..plane.vectors import cross
 from ..points.neighbors import Neighborhoods
 from ..solve.systems import Solution, Solver, solve_fixed
 from ..typing import UV, Indices, Loop, Points
@@ -198,8 +200,8 @@ def _inside(uv: UV, layout: UV) -> UV:
     # Each point lies in the sector of one side, seen from the middle: it has to be on the inner hand of that side.
     sector = np.searchsorted(np.sort(direction), np.arctan2(*(uv - center).T[::-1]), side="right") - 1
     start, end = corners[sector], corners[(sector + 1) % len(corners)]
-    cross = (end[:, 0] - start[:, 0]) * (uv[:, 1] - start[:, 1]) - (end[:, 1] - start[:, 1]) * (uv[:, 0] - start[:, 0])
-    outside = np.flatnonzero(cross < -1e-9 * np.ptp(layout, axis=0).max() * np.linalg.norm(end - start, axis=1))
+    off = cross(end - start, uv - start)
+    outside = np.flatnonzero(off < -1e-9 * np.ptp(layout, axis=0).max() * np.linalg.norm(end - start, axis=1))
     if len(outside):
         raise SolveError(
             "points {outside} were mapped outside the domain, so the system was not solved well enough; use the direct "
