@@ -10,12 +10,13 @@ from ..io import check_output, replacing
 from ..mesh.quality import area_vectors
 from ..typing import UV, Floats, Loop, Points, Triangles
 
-PAPER, FAINT, INK, ACCENT = "#fbfaf7", "#ccd6d8", "#22303c", "#c8553d"
-STONE, INSIDE = np.array([0.83, 0.77, 0.68]), np.array([0.78, 0.49, 0.40])
+PAPER, FAINT, INK, ACCENT = "#fbfaf7", "#ccd6d8", "#22303c", "#c8553d"  # ground, thin lines, text, what stands out
+STONE, INSIDE = np.array([0.83, 0.77, 0.68]), np.array([0.78, 0.49, 0.40])  # a surface, and what shows its back
 SEQUENTIAL = [FAINT, "#3a8fb7", INK]  # from none to much
 BRIGHTEST = 0.85  # cosine of the angle to the light within which places have their full colour
-LIGHT = np.array([-0.45, 0.55, 0.70]) / np.linalg.norm([-0.45, 0.55, 0.70])
+LIGHT = np.array([-0.45, 0.55, 0.70]) / np.linalg.norm([-0.45, 0.55, 0.70])  # from the upper left, as maps are lit
 MOST_SHAPES = 20_000  # points or triangles of a drawing; more become an image in it, so that files stay small
+# What makes a file the same on each run: by itself, matplotlib writes when it was made.
 UNDATED: dict[str, dict[str, None]] = {".png": {}, ".svg": {"Date": None}, ".pdf": {"CreationDate": None}}
 PICTURE_SUFFIXES = tuple(UNDATED)
 

@@ -16,6 +16,7 @@ from ..typing import Floats, Points
 from .raster import Scene, least_turning, look_at, reflection_angles
 from .run_pictures import ACCENT, FAINT, INK, PAPER, PICTURE_SUFFIXES, STONE, lit, number, paint_image, save, style_bar
 
+# Blue under the surface and red over it, in tones that grow as dark on both sides: seen in gray, large stays large.
 BELOW_AND_ABOVE = ["#12344f", "#2a6f97", "#8fbcd4", "#f4efe4", "#eba98f", ACCENT, "#7a2416"]
 FLAT = 1e-6  # curvature of a surface of area 1 that is taken for rounding
 STRIPES = np.array([0.1, 0.2, 0.5, 1.0, 2.0, 3.0, 5.0, 10.0, 15.0, 20.0, 30.0])  # degrees, each a part of a full turn

@@ -13,7 +13,7 @@ from ..camera import camera
 from ..run_pictures import INK, MOST_SHAPES, save
 from .sheet import COLUMN, Sheet, check_sheet, lay_out, sequential, show_scale
 
-FARTHEST = np.array([0.73, 0.77, 0.78])
+FARTHEST = np.array([0.73, 0.77, 0.78])  # color of the points farthest from us: still to be seen on white
 SHALLOW = 0.1  # depth over width of a cloud whose tones differ by all they can
 DOTS = 0.75, 0.25, 3.0  # diameter in spacings of the figure; at least and at most in points (1/72 inch)
 

@@ -9,7 +9,7 @@ from ...mesh.distortion import vertex_stretches
 from ...mesh.quality import area_vectors
 from ...typing import UV, Floats, Loop, Points, Triangles
 
-SAME = 1e-9
+SAME = 1e-9  # of the values: what measures differ by on a plane or an even grid, which would fill the whole scale
 OUTERMOST = 2.0  # per cent of the points at either end, which colours do not tell apart
 
 

@@ -9,7 +9,7 @@ from ...mesh.distortion import conformal_distortions
 from ...mesh.quality import edge_lengths, radius_ratios, smallest_angles
 from ...typing import UV, Floats, Points, Triangles
 
-BINS = 40
+BINS = 40  # bars: a choice, some pixels each beside the views
 BEYOND = 99.5  # per cent of the values that a histogram without an end shows; the others are in its last bar
 
 

@@ -18,21 +18,22 @@ from numpy.typing import NDArray
 from ...io import replacing
 from ...mesh.connectivity import boundary_loops, half_edges
 from ...pipeline import Reconstruction
-from ...report import certificate_lines
+from ...report.checks import certificate_checks
 from ...typing import Floats, Indices, Points
 from ..camera import camera, upright_axes, upward
 from .colorings import Shade, mesh_shades
 from .histograms import quality_histograms
 from .pack import packed, quantized, steps
-from .thinned import thin
+from .thinned import Thinned, thin
 
 MOST_POINTS = 200_000  # drawn: what a phone turns smoothly, and some 10 MB
-PAGE_SUFFIXES = (".html", ".htm")
+PAGE_SUFFIXES = (".html", ".htm")  # that browsers open as a page
+# What page.html has places for, by name: a page is one file, so that it opens offline.
 PARTS = ("page.css", "unpack.js", "geometry.js", "gl.js", "scene.js", "tell.js", "page.js")
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Page:
+class HtmlPage:
     """A page that is ready to be written.
 
     Attributes
@@ -51,7 +52,7 @@ class Page:
     def size_line(self) -> str:
         """How large the file is, and how many points it draws.
 
-        >>> Page("x" * 2_500_000, 900_000, 200_000).size_line
+        >>> HtmlPage("x" * 2_500_000, 900_000, 200_000).size_line
         '2.5 MB, opens offline; 200,000 of 900,000 points drawn'
         """
         thinned = f"; {self.n_drawn:,} of {self.n_points:,} points drawn" if self.n_drawn < self.n_points else ""
@@ -68,7 +69,7 @@ def lay_out(
     figure: str | None = None,
     deviation: Floats | None = None,
     most: int = MOST_POINTS,
-) -> Page:
+) -> HtmlPage:
     """Lay out the page of a run.
 
     Parameters
@@ -77,7 +78,7 @@ def lay_out(
         The vertices of the mesh.
     result : Reconstruction
     run : dict
-        What `run_report` gives.
+        What `mesh_facts` gives.
     title : str
         Name of the scan.
     command : str
@@ -91,22 +92,14 @@ def lay_out(
 
     Returns
     -------
-    Page
+    HtmlPage
     """
     title = title.encode("utf-8", "replace").decode()  # names of files may hold other bytes
     shown = thin(points, result.triangles, most)
     shades = mesh_shades(points, result.triangles, result.uv, result.loop, deviation=deviation)
-    loops = [shown.along(loop) for loop in boundary_loops(half_edges(result.triangles, len(points)))]
     low, extent = points.min(axis=0), float(np.ptp(points, axis=0).max())
     up = upward(points, result.triangles)
-    arrays: dict[str, NDArray[Any]] = {
-        "position": quantized(points[shown.kept], low, extent),
-        "uv": result.uv[shown.kept].astype(np.float32),
-        "triangles": steps(shown.triangles.ravel()),
-        "loop": steps(np.concatenate(loops)),
-        "loop_sizes": np.array([len(loop) for loop in loops], np.uint32),
-        "row": steps(result.rows[shown.kept]),
-    }
+    arrays = {"position": quantized(points[shown.kept], low, extent), **_arrays(result, shown)}
     spacing = next(shade.values for shade in shades if shade.name == "spacing")
     described = []
     for shade in shades:
@@ -126,14 +119,26 @@ def lay_out(
         "arrays": table,
         "shades": described,
         "checks": [
-            {"passed": line.startswith("[ok]"), "measured": line.startswith("[--]"), "text": line[5:]}
-            for line in certificate_lines(result.certificate)
+            {"passed": bool(check.passed), "measured": check.passed is None, "text": check.text}
+            for check in certificate_checks(result.certificate)
         ],
         "places": _places(points, run),
         "histograms": quality_histograms(points, result.triangles, result.uv, spacing),
         "run": run,
     }
-    return Page(_filled(title, content, data), len(points), len(shown.kept))
+    return HtmlPage(_filled(title, content, data), len(points), len(shown.kept))
+
+
+def _arrays(result: Reconstruction, shown: Thinned) -> dict[str, NDArray[Any]]:
+    """Return what the page draws of a mesh, but for the places of its points."""
+    loops = [shown.along(loop) for loop in boundary_loops(half_edges(result.triangles, len(result.rows)))]
+    return {
+        "uv": result.uv[shown.kept].astype(np.float32),
+        "triangles": steps(shown.triangles.ravel()),
+        "loop": steps(np.concatenate(loops)),
+        "loop_sizes": np.array([len(loop) for loop in loops], np.uint32),
+        "row": steps(result.rows[shown.kept]),
+    }
 
 
 def _places(points: Points, run: dict[str, Any]) -> list[dict[str, Any]]:
@@ -175,7 +180,7 @@ def _filled(title: str, content: dict[str, Any], data: str) -> str:
 
 
 @contextmanager
-def writing_page(path: Path | None, page: Page | None) -> Iterator[None]:
+def writing_page(path: Path | None, page: HtmlPage | None) -> Iterator[None]:
     """Write a page, if there is one; it is in its place when the block has ended well."""
     with nullcontext() if path is None else replacing(path) as temporary:
         if temporary is not None and page is not None:
