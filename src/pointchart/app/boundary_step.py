@@ -10,9 +10,9 @@ import viser
 from .._check import check_loop
 from ..boundary import perimeter, reversed_loop
 from ..errors import InputError, PointchartError
-from ..gaps.rules import place_of
 from ..io import read_loop, read_scan, write_loop
 from ..plane.polygons import is_inside
+from ..points.places import place_of
 from ..runs.boundary_run import BoundaryRun
 from ..typing import UV, Floats, Indices
 from .html import said_html

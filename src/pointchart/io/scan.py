@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import FormatError
-from ..typing import Attributes, Indices, Points, Triangles
+from ..typing import UV, Attributes, Indices, Points, Triangles
 from .source import AnyPath
 
 
@@ -29,6 +29,17 @@ class Scan:
     points: Points
     triangles: Triangles
     attributes: Attributes
+
+    @property
+    def uv(self) -> UV | None:
+        """The parameters that the file carries as u and v, (n, 2) float64; None if it has none.
+
+        >>> Scan(np.zeros((1, 3)), np.empty((0, 3), np.int64), {"v": np.array([4]), "u": np.array([3])}).uv.tolist()
+        [[3.0, 4.0]]
+        """
+        if "u" not in self.attributes or "v" not in self.attributes:
+            return None
+        return np.column_stack([self.attributes["u"], self.attributes["v"]]).astype(np.float64)
 
 
 def scan_from_columns(
