@@ -29,7 +29,9 @@ from pointchart.mesh.planar_delaunay import triangulate
 from pointchart.points.neighbors import ball, spacing
 from pointchart.proof.certificate import certify
 from pointchart.shapes import Shape, add_noise
-from pointchart.solve.systems import Solved, bicgstab, solve_fixed
+from pointchart.solve.factors import Solved
+from pointchart.solve.krylov import bicgstab
+from pointchart.solve.systems import solve_fixed
 from pointchart.typing import UV, Floats, Indices, Loop, Points, Triangles
 
 COINCIDENT = 1e-14  # parameters nearer than this differ by rounding only

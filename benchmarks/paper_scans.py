@@ -17,7 +17,9 @@ from pointchart.map.weights import WeightScheme, reciprocal_distance, shape_pres
 from pointchart.points.neighbors import Neighborhoods, ball
 from pointchart.points.stars import delaunay_star
 from pointchart.shapes import hemisphere, sculpture, tube
-from pointchart.solve.systems import Solved, Solver, bicgstab
+from pointchart.solve.factors import Solved
+from pointchart.solve.krylov import bicgstab
+from pointchart.solve.systems import Solver
 from pointchart.typing import UV, Floats, Indices, Loop, Points, Triangles
 
 DATA = Path(__file__).resolve().parents[2] / "shared" / "data"

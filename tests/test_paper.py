@@ -19,7 +19,9 @@ from pointchart.map.weights import reciprocal_distance, shape_preserving, unifor
 from pointchart.mesh.distortion import least_distance
 from pointchart.points.neighbors import Neighborhoods, ball
 from pointchart.points.stars import delaunay_star
-from pointchart.solve.systems import Solved, bicgstab, solve_fixed
+from pointchart.solve.factors import Solved
+from pointchart.solve.krylov import bicgstab
+from pointchart.solve.systems import solve_fixed
 from pointchart.typing import Floats, Loop, Points
 
 DATA = Path(__file__).resolve().parents[2] / "shared" / "data"

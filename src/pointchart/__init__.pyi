@@ -91,14 +91,9 @@ from .mesh.relocate import (
     suspect_points as suspect_points,
 )
 from .map.protrusions import parameterize_open as parameterize_open
-from .solve.systems import (
-    Solution as Solution,
-    bicgstab as bicgstab,
-    cholesky as cholesky,
-    conjugate_gradient as conjugate_gradient,
-    direct as direct,
-    solve_fixed as solve_fixed,
-)
+from .solve.systems import Solution as Solution, solve_fixed as solve_fixed
+from .solve.krylov import bicgstab as bicgstab, conjugate_gradient as conjugate_gradient
+from .solve.factors import cholesky as cholesky, direct as direct
 from .points.stars import (
     delaunay_star as delaunay_star,
     nearest_star as nearest_star,

@@ -12,7 +12,9 @@ from pointchart.mesh.connectivity import one_rings
 from pointchart.points.neighbors import Neighborhoods, ball, from_pairs, nearest
 from pointchart.points.stars import delaunay_star
 from pointchart.shapes import disc, relief
-from pointchart.solve.systems import bicgstab, direct, solve_fixed
+from pointchart.solve.factors import direct
+from pointchart.solve.krylov import bicgstab
+from pointchart.solve.systems import solve_fixed
 
 
 def support_directions(corners):

@@ -13,8 +13,9 @@ from pointchart.map.weights import mean_value
 from pointchart.mesh.connectivity import one_rings
 from pointchart.shapes import disc, relief
 from pointchart.solve.algebraic_multigrid import TOLERANCE, multigrid
+from pointchart.solve.factors import direct
 from pointchart.solve.hierarchy import _in_singles, split
-from pointchart.solve.systems import direct, solve_fixed
+from pointchart.solve.systems import solve_fixed
 
 # More than the coarsest level holds, so that there are levels at all.
 LARGE_DISCS = planar_discs(smallest=400, largest=1500)

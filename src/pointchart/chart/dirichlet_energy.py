@@ -7,7 +7,8 @@ import scipy.sparse as sp
 
 from ..mesh.quality import area_vectors
 from ..plane.vectors import cross
-from ..solve.systems import Direct, Solution
+from ..solve.factors import Direct
+from ..solve.systems import Solution
 from ..typing import UV, Floats, Indices, Points, Triangles
 
 ANCHOR = 1e-4  # holds place and turn, which the energy leaves free; small against the stiffness of a surface of area 1

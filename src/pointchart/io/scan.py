@@ -60,6 +60,15 @@ def scan_from_columns(
     return Scan(points, np.empty((0, 3), np.int64) if triangles is None else triangles, attributes | (extra or {}))
 
 
+def uv_columns(uv: UV | None) -> Attributes:
+    """Return parameters as the columns of a file, which `Scan.uv` puts together again.
+
+    >>> uv_columns(np.array([[3.0, 4.0]]))["v"].tolist()
+    [4.0]
+    """
+    return {} if uv is None else {"u": uv[:, 0], "v": uv[:, 1]}
+
+
 def fan_triangles(
     path: AnyPath, polygons: Sequence[tuple[Indices, Indices]], n_points: int, *, first: int = 0
 ) -> Triangles:

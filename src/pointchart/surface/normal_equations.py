@@ -7,7 +7,7 @@ from numpy.typing import ArrayLike
 from .._check import check_points, check_uv, check_weights
 from .._kernels.surface import bspline_basis as kernels
 from ..errors import InputError
-from ..solve.systems import direct
+from ..solve.factors import direct
 from ..typing import Floats
 from .bspline import BSplineSurface
 from .knots import check_clamped, check_knots
