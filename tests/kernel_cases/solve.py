@@ -97,14 +97,6 @@ CASES = {
     "coarse_points.mark_strong": lambda: (FINE.indptr, np.sin(np.arange(len(FINE.data))), bools(len(FINE.data))),
     "galerkin.middle_of": lambda: (np.array([7, 1, 4, 6, 0], np.int32), 1, 4, 5),
     "galerkin.most_entries": lambda: (*light(FINE.indptr, TO_FINE[0], FINE.indices, *TO_COARSE[:2]), 3, N_COARSE),
-    "coarse_points.move": lambda: (
-        np.array([-1, 2], np.int32),
-        np.array([1, -1, 0]),
-        np.array([2, 0, -1]),
-        np.array([1, 1, 1]),
-        2,
-        -1,
-    ),
     "coarse_points.number_chosen": lambda: (np.array([-1, 0, 0, -1, 0], np.int32),),
     "coarse_points.pull": lambda: (np.array([-1, 2], np.int32), np.array([1, -1, 0]), np.array([2, 0, -1]), 2, 1),
     "coarse_points.pull from the middle": lambda: (
@@ -115,6 +107,7 @@ CASES = {
         1,
     ),
     "coarse_points.push": lambda: (np.array([-1, 2], np.int32), ints(4) - 1, ints(4) - 1, 3, 1),
+    "coarse_points.rank_points": lambda: (light(np.array([0, 2, 2, 9]))[0], int32s(3)),
     "coarse_points.reverse_strong": lambda: (FINE.indptr, FINE.indices, STRONG, ints(226), int32s(len(STRONG))),
     "galerkin.split_rows": lambda: (
         SYSTEM.indptr,

@@ -47,15 +47,12 @@ def choose_coarse(indptr, indices, first, origins, strong, coarse):
     the number of each chosen point, -1 for the others. Points are kept in lists by their rank.
     """
     n = len(indptr) - 1
-    rank, most = np.empty(n, np.int32), 0
-    for i in range(n):
-        rank[i] = first[i + 1] - first[i]
-        most = max(most, rank[i])
-    most = 2 * most + 2  # lists: no point counts more than twice in a rank
+    rank = np.empty(n, np.int32)
+    most = 2 * rank_points(first, rank) + 2  # lists: no point counts more than twice in a rank
     head, after, before = np.full(most, -1, np.int32), np.empty(n, np.int32), np.empty(n, np.int32)
     for i in range(n - 1, -1, -1):
         push(head, after, before, i, rank[i])
-        coarse[i] = -2
+    coarse[:] = -2
     top = most - 1
     while True:
         while top >= 0 and head[top] < 0:
@@ -78,12 +75,16 @@ def choose_coarse(indptr, indices, first, origins, strong, coarse):
             for e in range(indptr[j], indptr[j + 1]):
                 k = indices[e]
                 if strong[e] and coarse[k] == -2 and rank[k] + 1 < most:
-                    move(head, after, before, rank, k, 1)
+                    pull(head, after, before, k, rank[k])
+                    rank[k] += 1
+                    push(head, after, before, k, rank[k])
                     top = max(top, rank[k])
         for e in range(indptr[i], indptr[i + 1]):
             k = indices[e]
             if strong[e] and coarse[k] == -2 and rank[k] > 0:
-                move(head, after, before, rank, k, -1)
+                pull(head, after, before, k, rank[k])
+                rank[k] -= 1
+                push(head, after, before, k, rank[k])
     return number_chosen(coarse)
 
 
@@ -98,12 +99,14 @@ def number_chosen(coarse):
     return count
 
 
-@njit(cache=True, nogil=True, inline="always")
-def move(head, after, before, rank, i, by):
-    """Change the rank of a point, and with it its list."""
-    pull(head, after, before, i, rank[i])
-    rank[i] += by
-    push(head, after, before, i, rank[i])
+@njit(cache=True, nogil=True)
+def rank_points(first, rank):
+    """Write how many points depend on each one; return the largest number."""
+    most = 0
+    for i in range(len(rank)):
+        rank[i] = first[i + 1] - first[i]
+        most = max(most, rank[i])
+    return most
 
 
 @njit(cache=True, nogil=True, inline="always")
