@@ -60,6 +60,16 @@ def scan_from_columns(
     return Scan(points, np.empty((0, 3), np.int64) if triangles is None else triangles, attributes | (extra or {}))
 
 
+def common_columns(parts: Sequence[Mapping[str, NDArray[Any]]]) -> dict[str, NDArray[Any]]:
+    """Join the columns of several parts of a file; one that only some of them have has no value for the others.
+
+    >>> common_columns([{"x": np.array([1]), "grey": np.array([9])}, {"x": np.array([2])}])
+    {'x': array([1, 2])}
+    """
+    common = [name for name in parts[0] if all(name in part for part in parts)]
+    return {name: np.concatenate([part[name] for part in parts]) for name in common}
+
+
 def uv_columns(uv: UV | None) -> Attributes:
     """Return parameters as the columns of a file, which `Scan.uv` puts together again.
 

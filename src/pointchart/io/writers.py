@@ -2,19 +2,17 @@
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TypeVar
 
 import numpy as np
 
-from ..errors import FormatError, InputError
+from ..errors import InputError
 from ..typing import UV, Attributes, Loop, Points, Triangles
 from .mesh_formats import MESH_WRITERS, SINGLE, digits_lost
-from .output import replacing
+from .output import check_suffix, replacing
 from .ply import write_ply
 from .source import AnyPath
 from .uv_formats import UV_WRITERS
 
-_Writer = TypeVar("_Writer")
 # In lower case, as suffixes are compared.
 MESH_SUFFIXES = tuple(MESH_WRITERS)
 UV_SUFFIXES = tuple(UV_WRITERS)
@@ -52,7 +50,7 @@ def write_mesh(
     InputError
         An array has not one row for each point.
     """
-    write = _writer(path, MESH_WRITERS)
+    write = MESH_WRITERS[check_suffix(path, MESH_WRITERS)]
     kept = _checked(points, uv, attributes)
     with replacing(path) as temporary:
         return write(temporary, points, triangles, uv, kept)
@@ -109,7 +107,7 @@ def write_curves(
     InputError
         An array has not one row for each point.
     """
-    _writer(path, {".ply": write_ply})
+    check_suffix(path, [".ply"])
     kept = _checked(points, None, attributes)
     edges = [np.column_stack([loop, np.roll(loop, -1)]) for loop in loops]
     with replacing(path) as temporary, temporary.open("wb") as file:
@@ -144,18 +142,10 @@ def write_uv(path: AnyPath, uv: UV, *, points: Points | None = None, attributes:
     InputError
         An array has not one row for each point.
     """
-    write = _writer(path, UV_WRITERS)
+    write = UV_WRITERS[check_suffix(path, UV_WRITERS)]
     kept = _checked(points, uv, attributes)
     with replacing(path) as temporary:
         return write(temporary, uv, points, kept)
-
-
-def _writer(path: AnyPath, writers: dict[str, _Writer]) -> _Writer:
-    suffix = Path(path).suffix.lower()
-    if suffix not in writers:
-        known = ", ".join(writers)
-        raise FormatError(f"{path}: the suffix '{suffix}' cannot be written here; choose one of {known}")
-    return writers[suffix]
 
 
 def _checked(points: Points | None, uv: UV | None, attributes: Attributes | None) -> Attributes:
