@@ -7,7 +7,6 @@ from strategies import clouds, seeds
 from pointchart._check import check_loop, check_points
 from pointchart._parallel import CHUNK, over_ranges
 from pointchart.errors import FormatError, InputError, PointchartError, SolveError, name_some, points_called
-from pointchart.plane.exact_signs import orientation_signs
 from pointchart.points.morton import morton_order
 
 SQUARE = np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]])
@@ -149,21 +148,3 @@ def test_morton_order_is_a_permutation_that_keeps_blocks_together(seed, dimensio
     assert sorted(order.tolist()) == list(range(64))
     quarters = (points[order] > 0.5) @ (2 ** np.arange(dimensions))
     assert (np.diff(quarters) >= 0).all()
-
-
-@given(seeds)
-def test_orientation_signs_change_with_every_exchange_of_corners(seed):
-    rng = np.random.default_rng(seed)
-    # Corners on a line up to a few last digits, where rounding alone would decide.
-    uv = np.outer(rng.random(12), [1.0, 3.0]) + 2.0**-53 * rng.integers(-2, 3, (12, 2))
-    triangles = np.array([rng.permutation(12)[:3] for _ in range(40)])
-    signs = orientation_signs(uv, triangles)
-    assert np.array_equal(signs, orientation_signs(uv, np.roll(triangles, 1, axis=1)))
-    assert np.array_equal(signs, -orientation_signs(uv, triangles[:, ::-1]))
-
-
-def test_orientation_signs_see_the_last_digit_and_denormal_areas():
-    tiny = 5e-324
-    uv = np.array([[0.0, 0.0], [1e17, 1e17], [2e17, 2e17 + 32], [tiny, 0], [0, tiny], [2e17, 2e17]])
-    triangles = np.array([[0, 1, 2], [0, 2, 1], [0, 3, 4], [0, 4, 3], [0, 1, 5]])
-    assert orientation_signs(uv, triangles).tolist() == [1, -1, 1, -1, 0]

@@ -7,7 +7,7 @@ from functools import partial
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ._check import check_layout, check_neighbors
+from ._check import check_neighbors
 from .boundary import Candidate, chord_length_on_circle
 from .boundary.bounded import Survey, survey_scan
 from .chart.on_mesh import uv_on_mesh
@@ -24,6 +24,7 @@ from .mesh.delaunay_swaps import swap_to_delaunay
 from .mesh.make import MeshCounts
 from .mesh.swap_rule import SwapRule, as_swaps
 from .mesh.ways import Connect, Way, default_stars, make_mesh
+from .plane.polygons import check_layout
 from .points.cloud import Cloud
 from .proof.certificate import Certificate, check_proof, prove
 from .solve.solver import Solver

@@ -29,9 +29,10 @@ from pointchart import PointchartError, read_scan
 from pointchart.app import boundary_step
 from pointchart.app.boundary_step import DROP, INSERT, OUTER
 from pointchart.app.loop_by_hand import LoopByHand
-from pointchart.app.picking import Camera, inside_polygon, project
+from pointchart.app.picking import Camera, project
 from pointchart.boundary import is_same_loop, reversed_loop
 from pointchart.io import read_loop, write_loop
+from pointchart.plane.polygons import is_inside
 
 ALL = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
 LEFT = ALL * [0.501, 1.0]
@@ -95,7 +96,7 @@ def test_the_boundary_is_found_and_points_in_a_polygon_that_is_dragged_are_dropp
     (client,) = page.server.get_clients().values()
     before = project(page.drawing.places[TRUE], page.drawing.camera(client))
     triangle = np.array([[0.02, 0.02], [0.02, 0.98], [0.6, 0.5]])
-    within = TRUE[inside_polygon(before, triangle)]
+    within = TRUE[is_inside([triangle], before)]
     assert 3 < len(within) < len(TRUE) // 2
     for what, gone in (("Drop", within), ("Add", [])):
         drag_with_shift(window, page, triangle)

@@ -3,16 +3,16 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
-from matplotlib.path import Path
 
 from pointchart import InputError, ball, delaunay_star, mean_value, nearest, reciprocal_distance, shapes
 from pointchart.app.frame import Frame, coarser, shades, spacing, stance, thinned
 from pointchart.app.frame_rate import TRIALS, Pace
 from pointchart.app.loop_by_hand import LoopByHand, dropped, inserted, nearest_of
 from pointchart.app.one_neighborhood import around_point
-from pointchart.app.picking import Camera, inside_polygon, nearest_to_ray, project, unproject, visible
+from pointchart.app.picking import Camera, nearest_to_ray, project, unproject, visible
 from pointchart.app.window_fit import DISTANCE, Whole, whole_distance
 from pointchart.boundary import is_same_loop, perimeter, reversed_loop
+from pointchart.plane.polygons import is_inside
 
 RELIEF = shapes.relief(400, seed=2)
 CAMERA = Camera(np.array([0.2, -0.1, 4.0]), np.diag([1.0, -1.0, -1.0]), fov=0.8, aspect=1.5)
@@ -66,30 +66,6 @@ def test_points_as_large_as_they_are_drawn_are_hit_over_all_their_size():
     assert nearest_to_ray(point, [0, 0, 1.0], [0, 0, -1.0], reach=0.31) == 0
 
 
-@given(arrays(float, (30, 2), elements=coordinates), arrays(float, (6, 2), elements=coordinates))
-def test_a_convex_polygon_holds_the_places_that_matplotlib_finds_in_it(places, cloud):
-    from scipy.spatial import ConvexHull, QhullError
-
-    try:
-        polygon = cloud[ConvexHull(cloud).vertices]
-    except QhullError:
-        return
-    path = Path(polygon)
-    clear = path.contains_points(places, radius=1e-6) == path.contains_points(places, radius=-1e-6)
-    assert np.array_equal(inside_polygon(places, polygon)[clear], path.contains_points(places)[clear])
-
-
-def test_an_arrow_holds_the_places_between_its_wings_and_not_its_notch():
-    arrow = [[0, 0], [4, 2], [0, 4], [1, 2]]
-    for corners in (arrow, arrow[::-1]):
-        assert inside_polygon(np.array([[2.0, 2], [0.4, 2], [0.3, 0.3], [-1, 2]]), corners).tolist() == [
-            True,
-            False,
-            True,
-            False,
-        ]
-
-
 @pytest.mark.parametrize("place", [(4, 0, 0), (-1, 2, 3), (0.5, -1.5, 0), (0, 0.3, 1.3), (1.15, 0, 0)])
 def test_of_a_sphere_the_points_before_its_horizon_are_seen(place):
     """The horizon of the unit sphere from a distance d is where the cosine to the line of sight is 1 / d."""
@@ -136,9 +112,9 @@ def test_points_are_seen_where_they_were_put(places, depth):
 
 
 def test_points_behind_the_camera_are_in_no_polygon():
-    screen = [[0, 0], [1, 0], [1, 1], [0, 1]]
+    screen = np.array([[0, 0], [1, 0], [1, 1], [0, 1]])
     behind = project(np.array([[0.2, -0.1, 9.0], [0.2, -0.1, 0.0]]), CAMERA)
-    assert inside_polygon(behind, screen).tolist() == [False, True]
+    assert is_inside([screen], behind).tolist() == [False, True]
 
 
 @pytest.mark.parametrize("place", [0, 10, 40, len(RELIEF.boundary) - 1])

@@ -13,9 +13,9 @@ from pointchart.cad.cad_files import read_face
 from pointchart.cad.make_face import make_surface
 from pointchart.cad.occ import silence
 from pointchart.cad.space_curves import lift
-from pointchart.cad.surface_checks import signed_area
 from pointchart.cad.trims import trim_edges
 from pointchart.errors import FormatError, InputError, SolveError
+from pointchart.plane.polygons import signed_area
 from pointchart.surface import BSplineSurface, evaluate, normals
 
 pytest.importorskip("OCP", reason="the extra cad is not installed")

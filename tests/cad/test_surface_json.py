@@ -107,7 +107,7 @@ def test_other_files_are_refused(tmp_path, content):
         ([SQUARE[[0, 1, 2, 2, 3]]], "loop 0 repeats its points 2 at once"),
         ([SQUARE[[0, 1, 2, 3, 0]]], "loop 0 repeats its points 4 at once"),
         ([SQUARE[:2]], r"loop 0 has shape \(2, 2\)"),
-        ([np.full((3, 2), np.nan)], "at least 3 finite parameter pairs"),
+        ([np.full((3, 2), np.nan)], "at least 3 finite corners"),
     ],
 )
 def test_loops_that_bound_nothing_are_named(loops, message):

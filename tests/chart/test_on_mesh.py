@@ -32,12 +32,13 @@ from pointchart import (
 from pointchart.boundary import chord_length_on_circle
 from pointchart.chart import on_mesh as charts
 from pointchart.chart.free_boundary import first_flat
-from pointchart.chart.on_mesh import DIRECT_LIMIT, QUICK_TOLERANCES
+from pointchart.chart.on_mesh import MOST_FACTORED, QUICK_TOLERANCES
 from pointchart.mesh.make import Meshed
 from pointchart.mesh.mesh_quality import measure_quality
 from pointchart.mesh.quality import area_vectors
 from pointchart.mesh.swap_rule import Swapped
-from pointchart.plane.exact_signs import is_simple, orientation_signs
+from pointchart.plane.crossings import is_simple
+from pointchart.plane.exact_signs import orientation_signs
 from pointchart.proof.certificate import check_proof
 from pointchart.report.mesh_facts import quality_facts
 from pointchart.runs.choices import CHARTS
@@ -58,7 +59,7 @@ def charted(chart, shape):
 
 def large_disc():
     """Return a disc of more points than are mapped directly at once, and its mesh without a map."""
-    shape = shapes.relief(DIRECT_LIMIT + 2000, seed=3)
+    shape = shapes.relief(MOST_FACTORED + 2000, seed=3)
     return shape, Meshed(Swapped(shape.triangles, 0, True))
 
 
@@ -165,7 +166,7 @@ def test_a_large_mesh_is_mapped_to_the_last_digits_where_the_quick_map_does_not_
 
 def test_a_long_tube_of_many_points_is_mapped_one_to_one():
     tube = shapes.tube(10, n_around=100)
-    assert len(tube.points) > DIRECT_LIMIT
+    assert len(tube.points) > MOST_FACTORED
     result = reconstruct(tube.points, tube.boundary)
     assert result.certificate.is_disc
     assert result.certificate.is_one_to_one

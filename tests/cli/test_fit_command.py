@@ -116,7 +116,7 @@ def test_the_unit_is_that_of_the_numbers_of_the_scan(run, cap, tmp_path, unit):
 
 @pytest.mark.parametrize("suffix", ["ply", "stl", "glb"])
 def test_a_mesh_of_the_surface_is_a_disc_as_near_to_the_sphere(run, cap, tmp_path, monkeypatch, suffix):
-    monkeypatch.setattr("pointchart.runs.execution.surface_files.TESSELLATED", 1000)
+    monkeypatch.setattr("pointchart.cad.surface_writer.TESSELLATED", 1000)
     assert run("cap.ply", "-o", f"mesh.{suffix}", "--tolerance", "1%", "--quiet") == (0, "")
     mesh = read_scan(tmp_path / f"mesh.{suffix}")
     assert certify(mesh.points, mesh.triangles).is_disc

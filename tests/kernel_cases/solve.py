@@ -4,7 +4,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from kernel_cases.samples import AROUND, SHAPE, STAR, STEP, WITHIN, N, bools, int32s, ints
-from pointchart._kernels.solve import coarsen, cycles
+from pointchart._kernels.solve import coarse_points, cycles, galerkin
 from pointchart._kernels.unsigned import unsigned
 from pointchart.solve.hierarchy import split
 
@@ -26,16 +26,16 @@ LINE = sp.diags_array([-1.0, 2.1, -1.2], offsets=[-1, 0, 1], shape=(15, 15))
 SYSTEM = sp.csr_array(sp.kron(LINE, sp.eye_array(15)) + sp.kron(sp.eye_array(15), LINE))
 FINE = split(SYSTEM)
 STRONG = bools(len(FINE.data))
-coarsen.mark_strong.py_func(FINE.indptr, FINE.data, STRONG)
+coarse_points.mark_strong.py_func(FINE.indptr, FINE.data, STRONG)
 DEPENDENT = ints(226), int32s(len(STRONG))
-coarsen.reverse_strong.py_func(FINE.indptr, FINE.indices, STRONG, *DEPENDENT)
+coarse_points.reverse_strong.py_func(FINE.indptr, FINE.indices, STRONG, *DEPENDENT)
 COARSE = int32s(225)
-N_COARSE = coarsen.choose_coarse.py_func(FINE.indptr, FINE.indices, *DEPENDENT, STRONG, COARSE)
+N_COARSE = coarse_points.choose_coarse.py_func(FINE.indptr, FINE.indices, *DEPENDENT, STRONG, COARSE)
 TO_FINE = ints(226), int32s(len(STRONG)), np.zeros(len(STRONG))
-N_SHARES = coarsen.interpolate.py_func(*FINE[:1], *FINE[2:], STRONG, COARSE, *TO_FINE)
+N_SHARES = galerkin.interpolate.py_func(*FINE[:1], *FINE[2:], STRONG, COARSE, *TO_FINE)
 TO_FINE = TO_FINE[0], TO_FINE[1][:N_SHARES].copy(), TO_FINE[2][:N_SHARES].copy()
 TO_COARSE = ints(N_COARSE + 1), int32s(N_SHARES), np.zeros(N_SHARES)
-coarsen.transpose.py_func(*TO_FINE, *TO_COARSE)
+galerkin.transpose.py_func(*TO_FINE, *TO_COARSE)
 MARK = int32s(N_COARSE) - 1
 
 # A system of more rows than two blocks, and a way to it from half as many.
@@ -55,8 +55,8 @@ def swept():
 
 
 CASES = {
-    "coarsen.choose_coarse": lambda: (*light(FINE.indptr, FINE.indices, *DEPENDENT), STRONG, int32s(225)),
-    "coarsen.add_row": lambda: (
+    "coarse_points.choose_coarse": lambda: (*light(FINE.indptr, FINE.indices, *DEPENDENT), STRONG, int32s(225)),
+    "galerkin.add_row": lambda: (
         light(*TO_FINE),
         int(np.flatnonzero(COARSE < 0)[5]),
         0.7,
@@ -68,7 +68,7 @@ CASES = {
         int32s(9),
         np.zeros(9),
     ),
-    "coarsen.galerkin_rows": lambda: (
+    "galerkin.galerkin_rows": lambda: (
         light(FINE.indptr, FINE.indices, FINE.data, FINE.diagonal),
         light(*TO_FINE),
         light(*TO_COARSE),
@@ -81,9 +81,9 @@ CASES = {
         int32s(9999),
         np.zeros(9999),
     ),
-    "coarsen.has_strong": lambda: (FINE.indptr, STRONG, 7),
-    "coarsen.insert_sorted": lambda: (np.array([7, 1, 4, 6, 0], np.int32), np.arange(5.0), 1, 4, 2, 9.0),
-    "coarsen.interpolate": lambda: (
+    "coarse_points.has_strong": lambda: (FINE.indptr, STRONG, 7),
+    "galerkin.insert_sorted": lambda: (np.array([7, 1, 4, 6, 0], np.int32), np.arange(5.0), 1, 4, 2, 9.0),
+    "galerkin.interpolate": lambda: (
         FINE.indptr,
         FINE.indices,
         np.where(np.arange(len(FINE.data)) % 7 > 0, FINE.data, 0.1),
@@ -94,20 +94,22 @@ CASES = {
         int32s(len(STRONG) + 225),
         np.zeros(len(STRONG) + 225),
     ),
-    "coarsen.mark_strong": lambda: (FINE.indptr, np.sin(np.arange(len(FINE.data))), bools(len(FINE.data))),
-    "coarsen.middle_of": lambda: (np.array([7, 1, 4, 6, 0], np.int32), 1, 4, 5),
-    "coarsen.most_entries": lambda: (*light(FINE.indptr, TO_FINE[0], FINE.indices, *TO_COARSE[:2]), 3, N_COARSE),
-    "coarsen.pull": lambda: (np.array([-1, 2], np.int32), np.array([1, -1, 0]), np.array([2, 0, -1]), 2, 1),
-    "coarsen.pull from the middle": lambda: (
+    "coarse_points.mark_strong": lambda: (FINE.indptr, np.sin(np.arange(len(FINE.data))), bools(len(FINE.data))),
+    "galerkin.middle_of": lambda: (np.array([7, 1, 4, 6, 0], np.int32), 1, 4, 5),
+    "galerkin.most_entries": lambda: (*light(FINE.indptr, TO_FINE[0], FINE.indices, *TO_COARSE[:2]), 3, N_COARSE),
+    "coarse_points.number_chosen": lambda: (np.array([-1, 0, 0, -1, 0], np.int32),),
+    "coarse_points.pull": lambda: (np.array([-1, 2], np.int32), np.array([1, -1, 0]), np.array([2, 0, -1]), 2, 1),
+    "coarse_points.pull from the middle": lambda: (
         np.array([-1, 2], np.int32),
         np.array([1, -1, 0]),
         np.array([2, 0, -1]),
         0,
         1,
     ),
-    "coarsen.push": lambda: (np.array([-1, 2], np.int32), ints(4) - 1, ints(4) - 1, 3, 1),
-    "coarsen.reverse_strong": lambda: (FINE.indptr, FINE.indices, STRONG, ints(226), int32s(len(STRONG))),
-    "coarsen.split_rows": lambda: (
+    "coarse_points.push": lambda: (np.array([-1, 2], np.int32), ints(4) - 1, ints(4) - 1, 3, 1),
+    "coarse_points.rank_points": lambda: (light(np.array([0, 2, 2, 9]))[0], int32s(3)),
+    "coarse_points.reverse_strong": lambda: (FINE.indptr, FINE.indices, STRONG, ints(226), int32s(len(STRONG))),
+    "galerkin.split_rows": lambda: (
         SYSTEM.indptr,
         SYSTEM.indices[::-1].copy(),
         SYSTEM.data,
@@ -117,7 +119,7 @@ CASES = {
         np.zeros(SYSTEM.nnz),
         np.zeros(225),
     ),
-    "coarsen.transpose": lambda: (*TO_FINE, ints(N_COARSE + 1), int32s(N_SHARES), np.zeros(N_SHARES)),
+    "galerkin.transpose": lambda: (*TO_FINE, ints(N_COARSE + 1), int32s(N_SHARES), np.zeros(N_SHARES)),
     "graphs.dominators": lambda: (TREE[0], *GRAPH, 0, np.arange(5), np.array([0, -1, -1, -1, -1])),
     "graphs.join": lambda: (np.array([0, 0, 1, 3, 3], dtype=np.int32), 4, 2),
     "graphs.join_parts": lambda: (SHAPE.points, AROUND.indptr, AROUND.indices, STEP, 0.8, int32s(N)),

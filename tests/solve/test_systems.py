@@ -11,10 +11,11 @@ from pointchart.map.weights import mean_value, reciprocal_distance, uniform
 from pointchart.mesh.connectivity import one_rings
 from pointchart.points.neighbors import ball, nearest
 from pointchart.shapes import disc, relief, shuffle
+from pointchart.solve.algebraic_multigrid import multigrid
 from pointchart.solve.factors import Direct, cholesky, direct, nested_dissection
 from pointchart.solve.krylov import bicgstab, conjugate_gradient
 from pointchart.solve.symmetric_form import symmetrize
-from pointchart.solve.systems import multigrid, solve_fixed
+from pointchart.solve.systems import solve_fixed
 
 GENERAL = [direct, Direct(), bicgstab, multigrid]
 SYMMETRIC = [cholesky, conjugate_gradient]

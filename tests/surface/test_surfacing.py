@@ -12,7 +12,7 @@ from strategies import seeds
 
 from pointchart import InputError, SolveError, shapes
 from pointchart.boundary import chord_length_steps, on_square, sharpest_places
-from pointchart.plane.exact_signs import is_simple
+from pointchart.plane.crossings import is_simple
 from pointchart.surface import Deviation, closest_parameters, evaluate
 from pointchart.surface.surfacing import check_met, fit_scan, without_spikes
 

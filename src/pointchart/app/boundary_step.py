@@ -10,13 +10,14 @@ import viser
 from .._check import check_loop
 from ..boundary import perimeter, reversed_loop
 from ..errors import InputError, PointchartError
-from ..gaps.rules import place_of
 from ..io import read_loop, read_scan, write_loop
+from ..plane.polygons import is_inside
+from ..points.places import place_of
 from ..runs.boundary_run import BoundaryRun
 from ..typing import UV, Floats, Indices
 from .html import said_html
 from .loop_by_hand import LoopByHand, dropped, inserted, nearest_of
-from .picking import Camera, inside_polygon, project, unproject, visible
+from .picking import Camera, project, unproject, visible
 from .session import Session
 from .step import Step
 from .step_files import StepFiles
@@ -166,7 +167,7 @@ class BoundaryStep:
             rows = np.union1d(session.hand.loop, scored)
             if not len(rows):
                 raise InputError("there are no boundary points to select yet; find the boundary first")
-            inside = rows[inside_polygon(project(drawing.places[rows], camera), polygon)]
+            inside = rows[is_inside([polygon], project(drawing.places[rows], camera))]
             if not len(inside):
                 raise InputError(
                     f"none of {len(rows)} boundary points is inside the polygon; draw it round some of them"

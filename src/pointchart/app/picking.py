@@ -163,31 +163,3 @@ def nearest_to_ray(
     nearest = depth[hit].min()
     front = hit[depth[hit] <= nearest + DEEP * max(np.tan(aim) * nearest, reach)]
     return int(front[np.argmin(beside[front] / depth[front])])
-
-
-def inside_polygon(places: UV, polygon: ArrayLike) -> Mask:
-    """Tell which places lie inside a polygon, by the number of its sides that a ray to the left crosses.
-
-    Parameters
-    ----------
-    places : (n, 2) array
-        Those with nan are outside.
-    polygon : (k, 2) array
-        Corners in order, not closed.
-
-    Returns
-    -------
-    (n,) bool array.
-
-    Examples
-    --------
-    >>> inside_polygon(np.array([[1.0, 1], [3, 1], [np.nan, 1]]), [[0, 0], [2, 0], [2, 2], [0, 2]]).tolist()
-    [True, False, False]
-    """
-    corners = np.asarray(polygon, dtype=np.float64)
-    x, y = places.T
-    is_inside = np.zeros(len(places), np.bool_)
-    for (x0, y0), (x1, y1) in zip(corners, np.roll(corners, -1, axis=0), strict=True):
-        spans = (y0 > y) != (y1 > y)
-        is_inside ^= spans & ((x - x0) * abs(y1 - y0) > (y - y0) * (x1 - x0) * np.sign(y1 - y0))
-    return is_inside

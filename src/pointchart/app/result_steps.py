@@ -2,10 +2,11 @@
 
 import shutil
 from pathlib import Path
+from typing import cast
 
 import numpy as np
 
-from ..cad import CAD_SUFFIXES, read_surface_json, write_cad
+from ..cad import SURFACE_SUFFIXES, read_surface_json, write_surface
 from ..io import MESH_SUFFIXES, UV_SUFFIXES, Scan, read_scan, write_mesh, write_uv
 from ..runs.fit_run import FitRun
 from ..runs.mesh_run import MeshRun
@@ -20,8 +21,7 @@ from .step_files import StepFiles
 
 # In the folder of the page, in formats that keep every digit: what is exported is made of them.
 UV_FILE, MESH_FILE, SURFACE_FILE = "uv-found.ply", "mesh-made.ply", "surface-fitted.json"
-SURFACE_SUFFIXES = (*CAD_SUFFIXES, ".json", *MESH_SUFFIXES)  # the surface itself first, then triangles of it
-DRAWN, TESSELLATED = 40_000, 100_000  # points of the mesh of a surface: on the session, and in a file
+DRAWN = 40_000  # points of the mesh of a surface, on the page
 # The options that have controls, with their labels, in the order of the page.
 DOMAIN = (("domain", "Domain"), ("corners", "Corners"), ("spacing", "Spacing"))
 MESH = (("holes", "Gaps"), *DOMAIN, ("uv", "Parameters"), ("swap", "Edge swaps"))
@@ -129,17 +129,11 @@ class SurfaceStep:
     def _write(self, path: Path) -> None:
         made = self._step.made("surface", "fit it")
         surface, loops, unit = read_surface_json(made)
-        if path.suffix in CAD_SUFFIXES:
-            write_cad(path, surface, loops, unit=unit, name=path.stem)
-        elif path.suffix == made.suffix:
-            shutil.copyfile(made, path)
-        else:
-            points, triangles, uv = tessellate(surface, loops, TESSELLATED)
-            write_mesh(path, points, triangles, uv=uv)
+        write_surface(path, surface, loops, unit=unit)
 
 
 def _uv(read: Scan) -> UV:
-    return np.column_stack([read.attributes["u"], read.attributes["v"]]).astype(np.float64)
+    return cast(UV, read.uv)  # files of these steps carry parameters
 
 
 def _without(read: Scan, *names: str) -> dict[str, np.ndarray]:

@@ -3,8 +3,9 @@
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .._check import check_convex, check_loop, check_points
+from .._check import check_loop, check_points
 from ..errors import InputError
+from ..plane.polygons import check_convex
 from ..typing import UV, Floats, Indices, Loop, Points
 from .steps import step_lengths
 

@@ -7,13 +7,12 @@ import numpy as np
 
 from ..errors import FormatError
 from ..io.source import AnyPath
-from ..plane.polygons import signed_area
+from ..plane.polygons import is_inside, signed_area
 from ..surface import BSplineSurface, evaluate
 from ..typing import UV
 from .make_face import size_of
 from .occ import occ
 from .read_face import SAMPLES, split
-from .surface_checks import is_inside
 from .trims import Edge
 
 DEVIATION = 1e-6  # of the size, and of the area of the domain

@@ -12,9 +12,11 @@ import numpy as np
 from scipy.interpolate import BSpline, CubicSpline, make_interp_spline
 
 from ..errors import InputError, name_some
+from ..plane.crossings import find_meetings
+from ..plane.polygons import sides_at
+from ..plane.vectors import cross
 from ..surface import BSplineSurface, evaluate
 from ..typing import UV, Floats, Indices, Mask, Points
-from .chain_meetings import find_meetings
 
 CORNER = np.radians(40.0)  # a circle of 10 points or more has none
 PIECES = 8  # a side of a polygon is looked at in at least so many straight pieces
@@ -80,8 +82,7 @@ def straight_edges(surface: BSplineSurface, loops: Sequence[UV]) -> list[list[Ed
 def _corners(surface: BSplineSurface, loop: UV) -> Mask:
     turns = np.zeros(len(loop), np.bool_)
     for places in (loop, evaluate(surface, loop)):
-        after = np.roll(places, -1, axis=0) - places
-        before = np.roll(after, 1, axis=0)
+        before, after = sides_at(places)
         lengths = np.linalg.norm(after, axis=1) * np.linalg.norm(before, axis=1)
         turns |= (after * before).sum(axis=1) < np.cos(CORNER) * lengths
     return turns
@@ -111,7 +112,7 @@ def _lengths(places: Points, uv: UV) -> Floats:
 def _spline(knots: Floats, uv: UV, is_closed: bool) -> BSpline:
     """Interpolate, by a line where all lie on one; a closed curve has the same slope at both ends."""
     chord = uv[-1] - uv[0]
-    off = np.abs(chord[0] * (uv - uv[0])[:, 1] - chord[1] * (uv - uv[0])[:, 0]).max()
+    off = np.abs(cross(chord, uv - uv[0])).max()
     if chord.any() and off <= _STRAIGHT * np.abs(uv).max() * np.abs(chord).max():
         return BSpline(knots[[0, 0, -1, -1]], uv[[0, -1]], 1)
     if is_closed:

@@ -6,6 +6,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from ..mesh.quality import area_vectors
+from ..plane.vectors import cross
 from ..solve.factors import Direct
 from ..solve.systems import Solution
 from ..typing import UV, Floats, Indices, Points, Triangles
@@ -54,7 +55,7 @@ class FlatTriangles:
     def parts(self, uv: UV) -> tuple[float, float]:
         """Return the energy of the map and that of its inverse; infinite where a triangle is not positive."""
         jacobians = self.jacobians(uv)
-        determinants = jacobians[:, 0, 0] * jacobians[:, 1, 1] - jacobians[:, 0, 1] * jacobians[:, 1, 0]
+        determinants = cross(jacobians[:, 0], jacobians[:, 1])
         squares = self.areas * (jacobians * jacobians).sum(axis=(1, 2))
         if not (determinants > 0.0).all():
             return float(squares.sum()), float("inf")
@@ -164,8 +165,3 @@ class NewtonSystem:
             -float(downhill @ step),
             Solution(uv, residual, (), "direct", size, matrix.nnz),
         )
-
-
-def cross(x: Floats, y: Floats) -> Floats:
-    """Return the z components of the cross products of vectors in the plane, (n,)."""
-    return np.asarray(x[:, 0] * y[:, 1] - x[:, 1] * y[:, 0])

@@ -10,11 +10,13 @@ from .._check import check_loop, check_points, check_triangles
 from ..errors import InputError
 from ..map.convex_combination import Parameterization
 from ..mesh.make import Meshed
-from ..plane.exact_signs import is_simple, orientation_signs
+from ..plane.crossings import is_simple
+from ..plane.exact_signs import orientation_signs
+from ..plane.vectors import cross
 from ..solve.solver import Solver
 from ..solve.systems import Solution
 from ..typing import UV, Floats, Loop, Mask, Points, Triangles
-from .dirichlet_energy import FlatTriangles, NewtonSystem, cross
+from .dirichlet_energy import FlatTriangles, NewtonSystem
 from .low_stretch import uv_low_stretch
 from .on_mesh import is_positive
 from .rule import Chart

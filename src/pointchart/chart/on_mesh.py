@@ -23,7 +23,7 @@ from ..typing import UV, Loop, Points, Triangles
 from .rule import Chart
 
 QUICK_TOLERANCES = 1e-6, 1e-10  # of the first maps, each tried for being one-to-one
-DIRECT_LIMIT = 10_000  # points up to which factors cost less than a hierarchy of matrices
+MOST_FACTORED = 10_000  # points up to which factors cost less than a hierarchy of matrices
 
 
 @partial(Chart, name="one-to-one on a convex domain")
@@ -58,7 +58,7 @@ def uv_on_mesh(points: Points, loop: Loop, boundary_uv: UV, meshed: Meshed, solv
     """
     triangles = meshed.swapped.triangles
     rings = rings_of(triangles, len(points))
-    if solver is None and len(points) > DIRECT_LIMIT:
+    if solver is None and len(points) > MOST_FACTORED:
         with suppress(SolveError):
             for quick in _quick_maps(points, loop, boundary_uv, rings):
                 if is_positive(quick.uv, triangles):

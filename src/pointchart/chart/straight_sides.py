@@ -5,6 +5,8 @@ import numpy as np
 from .._kernels.mesh.swaps import are_joined, swap
 from ..mesh.connectivity import HalfEdges, half_edges
 from ..mesh.swap_rule import Swapped
+from ..plane.polygons import sides_at
+from ..plane.vectors import cross
 from ..typing import UV, Indices, Loop, Mask
 
 STRAIGHT = 1e-9  # sine of the turn under which boundary points lie on one side of the domain
@@ -66,10 +68,9 @@ def _sides(n_points: int, loop: Loop, boundary_uv: UV) -> tuple[Indices, Indices
 
 
 def _is_corner(boundary_uv: UV) -> Mask:
-    steps = np.roll(boundary_uv, -1, axis=0) - boundary_uv
-    before = np.roll(steps, 1, axis=0)
-    turn = before[:, 0] * steps[:, 1] - before[:, 1] * steps[:, 0]
-    return np.asarray(turn > STRAIGHT * np.linalg.norm(steps, axis=1) * np.linalg.norm(before, axis=1))
+    behind, ahead = sides_at(boundary_uv)
+    slack = STRAIGHT * np.linalg.norm(ahead, axis=1) * np.linalg.norm(behind, axis=1)
+    return np.asarray(cross(behind, ahead) > slack)
 
 
 def _share_a_side(ahead: Indices, behind: Indices, a: Indices, b: Indices) -> Mask:

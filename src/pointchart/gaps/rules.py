@@ -7,6 +7,7 @@ import numpy as np
 
 from ..boundary import Candidate, perimeter
 from ..errors import Remedy, SolveError
+from ..points.places import place_of
 from ..typing import Floats, Indices, Loop, Points, Triangles
 from .bridges import Bridge, BridgedPatch
 
@@ -195,14 +196,3 @@ def check_torn(found: BoundaryAndGaps, bridges: Sequence[Bridge], disputed: Indi
                 remedies=remedies,
                 there=bridge.points[0],
             )
-
-
-def place_of(points: Points, index: int) -> str:
-    """Write where a point is.
-
-    Examples
-    --------
-    >>> place_of(np.array([[0.5, -2.0, 1e6]]), 0)
-    '(0.5, -2, 1000000)'
-    """
-    return "(" + ", ".join(f"{x:.9g}" for x in points[index]) + ")"

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from ..errors import FormatError
 from ..typing import UV, Indices, Points, Triangles
-from .scan import Scan, fan_triangles, scan_from_columns
+from .scan import Scan, common_columns, fan_triangles, scan_from_columns
 from .source import AnyPath, read_bytes
 
 _COLOURS = ("red", "green", "blue", "alpha")  # in the order of glTF; other formats call them so
@@ -30,9 +30,7 @@ def read_glb(path: AnyPath) -> Scan:
     if not scans:
         raise FormatError(f"{path}: the scene holds 0 meshes and 0 clouds; export it again with its points")
     starts = np.cumsum([0, *(len(columns["x"]) for columns, _ in scans)])
-    # an attribute that only some of the parts have has no value for the others
-    common = [name for name in scans[0][0] if all(name in columns for columns, _ in scans)]
-    columns = {name: np.concatenate([columns[name] for columns, _ in scans]) for name in common}
+    columns = common_columns([columns for columns, _ in scans])
     triangles = np.concatenate([faces + start for (_, faces), start in zip(scans, starts, strict=False)])
     return scan_from_columns(path, columns, fan_triangles(path, [(np.arange(len(triangles)), triangles)], starts[-1]))
 

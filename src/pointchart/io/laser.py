@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import FormatError
-from .scan import Scan, scan_from_columns
+from .scan import Scan, common_columns, scan_from_columns
 from .source import AnyPath, check_readable
 
 # Bytes of the headers of a file up to LAS 1.2 and of 1.4 (ASPRS, LAS specification); formats of points from 64 on are
@@ -56,8 +56,7 @@ def read_e57(path: AnyPath) -> Scan:
         raise FormatError(f"{path}: this is no whole E57 file ({error}); copy or export it again") from None
     if not scans:
         raise FormatError(f"{path}: the file holds 0 scans; export it again with its points")
-    common = [name for name in scans[0] if all(name in scan for scan in scans)]
-    return scan_from_columns(path, {name: np.concatenate([scan[name] for scan in scans]) for name in common})
+    return scan_from_columns(path, common_columns(scans))
 
 
 def _e57_scan(file: Any, index: int) -> dict[str, NDArray[Any]]:

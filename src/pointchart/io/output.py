@@ -35,10 +35,8 @@ def check_output(path: AnyPath, *, suffixes: Sequence[str], inputs: Iterable[Any
     InputError
         The output is one of the inputs, also by way of a link.
     """
+    check_suffix(path, suffixes)
     target = Path(path)
-    if target.suffix.lower() not in suffixes:
-        known = ", ".join(suffixes)
-        raise FormatError(f"{path}: the suffix '{target.suffix}' cannot be written here; choose one of {known}")
     folder = _resolved(target).parent
     if not folder.exists():
         raise FormatError(f"{path}: the folder {folder} does not exist; create it first")
@@ -55,6 +53,19 @@ def check_output(path: AnyPath, *, suffixes: Sequence[str], inputs: Iterable[Any
         if is_same or _resolved(target) == _resolved(Path(source)):
             raise InputError(f"{path}: the output is also {source}, which would be lost; choose another output")
     return target
+
+
+def check_suffix(path: AnyPath, suffixes: Iterable[str]) -> str:
+    """Return the suffix of a file that is to be written, in lower case, if it is one of those that can be.
+
+    >>> check_suffix("mesh.PLY", [".obj", ".ply"])
+    '.ply'
+    """
+    suffix = Path(path).suffix
+    if suffix.lower() not in suffixes:
+        known = ", ".join(suffixes)
+        raise FormatError(f"{path}: the suffix '{suffix}' cannot be written here; choose one of {known}")
+    return suffix.lower()
 
 
 @contextmanager

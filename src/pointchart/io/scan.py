@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import FormatError
-from ..typing import Attributes, Indices, Points, Triangles
+from ..typing import UV, Attributes, Indices, Points, Triangles
 from .source import AnyPath
 
 
@@ -30,6 +30,17 @@ class Scan:
     triangles: Triangles
     attributes: Attributes
 
+    @property
+    def uv(self) -> UV | None:
+        """The parameters that the file carries as u and v, (n, 2) float64; None if it has none.
+
+        >>> Scan(np.zeros((1, 3)), np.empty((0, 3), np.int64), {"v": np.array([4]), "u": np.array([3])}).uv.tolist()
+        [[3.0, 4.0]]
+        """
+        if "u" not in self.attributes or "v" not in self.attributes:
+            return None
+        return np.column_stack([self.attributes["u"], self.attributes["v"]]).astype(np.float64)
+
 
 def scan_from_columns(
     path: AnyPath,
@@ -47,6 +58,25 @@ def scan_from_columns(
     points = np.stack([columns[axis] for axis in "xyz"], axis=1).astype(np.float64, copy=False)
     attributes = {name: _own(column) for name, column in columns.items() if name not in ("x", "y", "z")}
     return Scan(points, np.empty((0, 3), np.int64) if triangles is None else triangles, attributes | (extra or {}))
+
+
+def common_columns(parts: Sequence[Mapping[str, NDArray[Any]]]) -> dict[str, NDArray[Any]]:
+    """Join the columns of several parts of a file; one that only some of them have has no value for the others.
+
+    >>> common_columns([{"x": np.array([1]), "grey": np.array([9])}, {"x": np.array([2])}])
+    {'x': array([1, 2])}
+    """
+    common = [name for name in parts[0] if all(name in part for part in parts)]
+    return {name: np.concatenate([part[name] for part in parts]) for name in common}
+
+
+def uv_columns(uv: UV | None) -> Attributes:
+    """Return parameters as the columns of a file, which `Scan.uv` puts together again.
+
+    >>> uv_columns(np.array([[3.0, 4.0]]))["v"].tolist()
+    [4.0]
+    """
+    return {} if uv is None else {"u": uv[:, 0], "v": uv[:, 1]}
 
 
 def fan_triangles(

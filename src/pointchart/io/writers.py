@@ -1,28 +1,21 @@
 """One door for every format that can be written; a file is replaced whole or not at all."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
-from typing import TypeAlias, TypeVar
 
 import numpy as np
 
-from ..errors import FormatError, InputError
+from ..errors import InputError
 from ..typing import UV, Attributes, Loop, Points, Triangles
-from .arrays import write_npz
-from .distinct import distinct_rows
-from .glb import write_glb
-from .obj import write_obj
-from .off import write_off
-from .output import replacing
+from .mesh_formats import MESH_WRITERS, SINGLE, digits_lost
+from .output import check_suffix, replacing
 from .ply import write_ply
 from .source import AnyPath
-from .stl import write_stl
-from .table import write_rows
+from .uv_formats import UV_WRITERS
 
-_MeshWriter: TypeAlias = Callable[[Path, Points, Triangles, UV | None, Attributes], list[str]]
-_UVWriter: TypeAlias = Callable[[Path, UV, Points | None, Attributes], list[str]]
-_Writer = TypeVar("_Writer")
-SINGLE = {".stl": "STL", ".glb": "GLB"}  # formats of single precision
+# In lower case, as suffixes are compared.
+MESH_SUFFIXES = tuple(MESH_WRITERS)
+UV_SUFFIXES = tuple(UV_WRITERS)
 
 
 def write_mesh(
@@ -57,7 +50,7 @@ def write_mesh(
     InputError
         An array has not one row for each point.
     """
-    write = _writer(path, _MESH_WRITERS)
+    write = MESH_WRITERS[check_suffix(path, MESH_WRITERS)]
     kept = _checked(points, uv, attributes)
     with replacing(path) as temporary:
         return write(temporary, points, triangles, uv, kept)
@@ -84,7 +77,7 @@ def check_digits(path: AnyPath, points: Points) -> None:
     """
     kind = SINGLE.get(Path(path).suffix.lower())
     if kind is not None:
-        _digits_lost(kind, points)
+        digits_lost(kind, points)
 
 
 def write_curves(
@@ -114,7 +107,7 @@ def write_curves(
     InputError
         An array has not one row for each point.
     """
-    _writer(path, {".ply": write_ply})
+    check_suffix(path, [".ply"])
     kept = _checked(points, None, attributes)
     edges = [np.column_stack([loop, np.roll(loop, -1)]) for loop in loops]
     with replacing(path) as temporary, temporary.open("wb") as file:
@@ -149,18 +142,10 @@ def write_uv(path: AnyPath, uv: UV, *, points: Points | None = None, attributes:
     InputError
         An array has not one row for each point.
     """
-    write = _writer(path, _UV_WRITERS)
+    write = UV_WRITERS[check_suffix(path, UV_WRITERS)]
     kept = _checked(points, uv, attributes)
     with replacing(path) as temporary:
         return write(temporary, uv, points, kept)
-
-
-def _writer(path: AnyPath, writers: dict[str, _Writer]) -> _Writer:
-    suffix = Path(path).suffix.lower()
-    if suffix not in writers:
-        known = ", ".join(writers)
-        raise FormatError(f"{path}: the suffix '{suffix}' cannot be written here; choose one of {known}")
-    return writers[suffix]
 
 
 def _checked(points: Points | None, uv: UV | None, attributes: Attributes | None) -> Attributes:
@@ -177,121 +162,3 @@ def _checked(points: Points | None, uv: UV | None, attributes: Attributes | None
             raise InputError(f"attribute {name} has shape {column.shape} where {n_points} points need ({n_points},)")
     hidden = ("x", "y", "z") if uv is None else ("x", "y", "z", "u", "v")
     return {name: column for name, column in (attributes or {}).items() if name not in hidden}
-
-
-def _mesh_ply(path: Path, points: Points, triangles: Triangles, uv: UV | None, attributes: Attributes) -> list[str]:
-    with path.open("wb") as file:
-        return write_ply(file, points, _columns(uv) | attributes, triangles=triangles)
-
-
-def _mesh_obj(path: Path, points: Points, triangles: Triangles, uv: UV | None, attributes: Attributes) -> list[str]:
-    with path.open("w", encoding="utf-8", newline="\n") as file:
-        write_obj(file, points, triangles, uv)
-    return _left_out("OBJ", attributes)
-
-
-def _mesh_off(path: Path, points: Points, triangles: Triangles, uv: UV | None, attributes: Attributes) -> list[str]:
-    with path.open("w", encoding="utf-8", newline="\n") as file:
-        write_off(file, points, triangles)
-    return _left_out("OFF", _columns(uv) | attributes)
-
-
-def _mesh_stl(path: Path, points: Points, triangles: Triangles, uv: UV | None, attributes: Attributes) -> list[str]:
-    notes = _digits_lost("STL", points)
-    with path.open("wb") as file:
-        write_stl(file, points, triangles)
-    return notes + _left_out("STL", _columns(uv) | attributes)
-
-
-def _mesh_glb(path: Path, points: Points, triangles: Triangles, uv: UV | None, attributes: Attributes) -> list[str]:
-    notes = _digits_lost("GLB", points)
-    with path.open("wb") as file:
-        write_glb(file, points, triangles, uv)
-    return notes + _left_out("GLB", attributes)
-
-
-def _mesh_npz(path: Path, points: Points, triangles: Triangles, uv: UV | None, attributes: Attributes) -> list[str]:
-    with path.open("wb") as file:
-        write_npz(file, points=points, triangles=triangles, uv=uv, attributes=attributes)
-    return []
-
-
-def _uv_text(path: Path, uv: UV, points: Points | None, attributes: Attributes) -> list[str]:
-    is_csv = path.suffix.lower() == ".csv"
-    with path.open("w", encoding="utf-8", newline="\n") as file:
-        file.write("u,v\n" if is_csv else "")
-        write_rows(file, "{!r},{!r}" if is_csv else "{!r} {!r}", uv)
-    return []
-
-
-def _uv_npy(path: Path, uv: UV, points: Points | None, attributes: Attributes) -> list[str]:
-    with path.open("wb") as file:
-        np.save(file, uv, allow_pickle=False)
-    return []
-
-
-def _uv_npz(path: Path, uv: UV, points: Points | None, attributes: Attributes) -> list[str]:
-    with path.open("wb") as file:
-        write_npz(file, points=points, triangles=None, uv=uv, attributes=attributes)
-    return []
-
-
-def _uv_ply(path: Path, uv: UV, points: Points | None, attributes: Attributes) -> list[str]:
-    flat = np.column_stack([uv, np.zeros(len(uv))])
-    with path.open("wb") as file:
-        return write_ply(file, flat if points is None else points, _columns(uv) | attributes)
-
-
-def _columns(uv: UV | None) -> Attributes:
-    return {} if uv is None else {"u": uv[:, 0], "v": uv[:, 1]}
-
-
-def _left_out(kind: str, attributes: Attributes) -> list[str]:
-    if not attributes:
-        return []
-    return [f"pointchart writes no {', '.join(attributes)} to {kind}; write .ply to keep them."]
-
-
-def _digits_lost(kind: str, points: Points) -> list[str]:
-    """Say what single precision does to coordinates with a large offset, as those of a survey."""
-    if not len(points):
-        return []
-    with np.errstate(over="ignore"):
-        single = points.astype(np.float32)
-    extent = float(np.ptp(points, axis=0).max())
-    error = float(np.abs(single - points).max())
-    n_merged = len(distinct_rows(points)[0]) - len(distinct_rows(single)[0])
-    if n_merged:
-        raise FormatError(
-            f"{kind} holds single precision, which makes {n_merged} of these points coincide with others (they move by "
-            f"up to {error:.2g}, their extent is {extent:.2g}); write .ply, or subtract the offset first"
-        )
-    if error <= 1e-6 * extent:
-        return []
-    return [
-        f"{kind} holds single precision, which moves these points by up to {error:.2g} (their extent is {extent:.2g}); "
-        "write .ply to keep every digit."
-    ]
-
-
-# In the order in which messages name them.
-_MESH_WRITERS: dict[str, _MeshWriter] = {
-    ".ply": _mesh_ply,
-    ".obj": _mesh_obj,
-    ".off": _mesh_off,
-    ".stl": _mesh_stl,
-    ".glb": _mesh_glb,
-    ".npz": _mesh_npz,
-}
-# The same for parameters without a mesh.
-_UV_WRITERS: dict[str, _UVWriter] = {
-    ".csv": _uv_text,
-    ".txt": _uv_text,
-    ".xyz": _uv_text,
-    ".npy": _uv_npy,
-    ".npz": _uv_npz,
-    ".ply": _uv_ply,
-}
-# In lower case, as suffixes are compared.
-MESH_SUFFIXES = tuple(_MESH_WRITERS)
-UV_SUFFIXES = tuple(_UV_WRITERS)

@@ -6,8 +6,10 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import ArrayLike
 
-from .._check import check_layout, check_loop, check_neighbors, check_points
+from .._check import check_loop, check_neighbors, check_points
 from ..errors import InputError, SolveError
+from ..plane.polygons import check_layout
+from ..plane.vectors import cross
 from ..points.neighborhoods import Neighborhoods
 from ..solve.reach import check_connected
 from ..solve.solver import Solver
@@ -144,8 +146,8 @@ def _inside(uv: UV, layout: UV) -> UV:
     # Each point lies in the sector of one side, seen from the middle: it has to be on the inner hand of that side.
     sector = np.searchsorted(np.sort(direction), np.arctan2(*(uv - center).T[::-1]), side="right") - 1
     start, end = corners[sector], corners[(sector + 1) % len(corners)]
-    cross = (end[:, 0] - start[:, 0]) * (uv[:, 1] - start[:, 1]) - (end[:, 1] - start[:, 1]) * (uv[:, 0] - start[:, 0])
-    outside = np.flatnonzero(cross < -1e-9 * np.ptp(layout, axis=0).max() * np.linalg.norm(end - start, axis=1))
+    off = cross(end - start, uv - start)
+    outside = np.flatnonzero(off < -1e-9 * np.ptp(layout, axis=0).max() * np.linalg.norm(end - start, axis=1))
     if len(outside):
         raise SolveError(
             "points {outside} were mapped outside the domain, so the system was not solved well enough; use the direct "

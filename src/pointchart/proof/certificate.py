@@ -12,7 +12,8 @@ from ..boundary import is_same_loop
 from ..errors import InputError, SolveError
 from ..mesh.connectivity import HalfEdges, boundary_loops, fans, half_edges
 from ..mesh.planar_delaunay import coinciding
-from ..plane.exact_signs import is_simple, orientation_signs
+from ..plane.crossings import is_simple
+from ..plane.exact_signs import orientation_signs, sense
 from ..points.neighbors import spacing as local_spacing
 from ..typing import UV, Floats, Loop, Points, Triangles
 
@@ -243,12 +244,6 @@ def _measure(points: Points, edges: HalfEdges, spacing: Floats) -> tuple[float, 
 
 def _bound_simply(plane: UV, loops: list[Loop]) -> bool:
     """Tell whether loops are simple polygons, one of them anticlockwise and the others, those of holes, clockwise."""
-    directions = []
-    for loop in loops:
-        # A simple polygon turns at its lowest corner as it runs on the whole.
-        lowest = int(np.lexsort(plane[loop].T)[0])
-        corner = loop[[lowest - 1, lowest, (lowest + 1) % len(loop)]]
-        directions.append(int(orientation_signs(plane, corner[None])[0]))
-    return sorted(directions, reverse=True) == [1] + [-1] * (len(loops) - 1) and all(
-        is_simple(plane[loop]) for loop in loops
-    )
+    polygons = [plane[loop] for loop in loops]
+    senses = sorted(map(sense, polygons), reverse=True)
+    return senses == [1] + [-1] * (len(loops) - 1) and all(map(is_simple, polygons))

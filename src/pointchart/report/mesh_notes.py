@@ -1,7 +1,7 @@
 """What is worth a word about a boundary, its gaps and a mesh."""
 
-from ..gaps.rules import place_of
 from ..pipeline import Reconstruction
+from ..points.places import place_of
 from ..proof.intersection_places import SelfIntersections
 from ..typing import Points
 from .checks import counted

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 from ..errors import InputError
 from ..io import Scan, check_output, read_loop, read_scan
 from ..points.parts import largest_component
-from ..typing import UV, Indices, Loop, Points
+from ..typing import Indices, Loop, Points
 from .shared_options import Source
 
 
@@ -85,10 +85,3 @@ def read_inputs(source: Source, boundary: Path | None = None, corners: Sequence[
     if source.component is not None and loop is not None:
         part = replace(part, loop=part.places_of(loop, "boundary points"))
     return part if corners is None else replace(part, corners=part.places_of(corners, "corners"))
-
-
-def uv_of(read: Scan) -> UV | None:
-    """Return the parameters that a mesh carries, (n, 2), if it does."""
-    if "u" not in read.attributes or "v" not in read.attributes:
-        return None
-    return np.column_stack([read.attributes["u"], read.attributes["v"]]).astype(np.float64)

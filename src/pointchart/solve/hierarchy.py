@@ -8,16 +8,8 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
 
-from .._kernels.solve.coarsen import (
-    choose_coarse,
-    galerkin_rows,
-    interpolate,
-    mark_strong,
-    most_entries,
-    reverse_strong,
-    split_rows,
-    transpose,
-)
+from .._kernels.solve.coarse_points import choose_coarse, mark_strong, reverse_strong
+from .._kernels.solve.galerkin import galerkin_rows, interpolate, most_entries, split_rows, transpose
 from .._kernels.unsigned import unsigned
 from .._parallel import over_ranges
 from ..errors import SolveError

@@ -14,6 +14,7 @@ from ..mesh.connectivity import HalfEdges, boundary_loops, half_edges
 from ..mesh.planar_delaunay import coinciding
 from ..mesh.quality import edge_lengths
 from ..plane.exact_signs import orientation_signs
+from ..plane.vectors import cross
 from ..points.morton import morton_order
 from ..proof.certificate import certify
 from ..proof.intersections import box_tree
@@ -230,12 +231,8 @@ def _crossings(uv: UV, triangles: Triangles, edges: HalfEdges) -> Floats:
     inner = np.flatnonzero(edges.twins > np.arange(len(edges.twins)))
     a, b, own = uv[edges.origins[inner]], uv[edges.targets[inner]], barycentres[inner // 3]
     line = barycentres[edges.twins[inner] // 3] - own
-    total, part = _cross(b - a, line), _cross(b - own, line)
+    total, part = cross(b - a, line), cross(b - own, line)
     share = np.full(len(edges.twins), 0.5)
     share[inner] = np.divide(part, total, out=np.full(len(inner), 0.5), where=total != 0.0)
     share[edges.twins[inner]] = 1.0 - share[inner]
     return share.reshape(-1, 3)
-
-
-def _cross(a: Floats, b: Floats) -> Floats:
-    return np.asarray(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])

@@ -6,25 +6,22 @@ from math import ceil, pi
 import numpy as np
 from numpy.typing import ArrayLike
 from scipy.spatial import cKDTree
-from threadpoolctl import threadpool_limits
 
 from .._check import check_points, check_uv
 from .._kernels.surface import radial_blend as kernels
 from .._parallel import over_ranges
-from ..errors import InputError, SolveError
+from ..errors import InputError
 from ..mesh.planar_delaunay import coinciding
 from ..points.morton import morton_order
 from ..points.trees import search
 from ..proof.intersections import box_tree
-from ..solve.krylov import ONE_THREAD
-from ..typing import UV, Floats, Indices, Points
+from ..typing import UV, Floats, Points
+from .radial_splines import quadratics, solve_splines
 
 NEARBY = 48  # points of a spline: eight times the six that a quadratic needs; a choice, as 30 to 100 work well
 OVERLAP = 1.5  # radius of a disc over half the diagonal of its cell
 LARGEST_SMOOTHING = 10.0  # spacings: discs have 3 times their square for points then, 300, and systems that are full
-BLOCK = 64  # discs whose matrices are held at once: some megabytes
 FLATTEST = 1e-13  # least over largest eigenvalue of the quadratics' normal matrix
-LARGEST_MISS = 1e-8  # of the extent of the points of a disc
 ORDERS = ((0, 0), (1, 0), (0, 1), (2, 0), (1, 1), (0, 2))  # in the order of a jet of the kernels
 
 
@@ -145,7 +142,7 @@ def fit_radial(points: ArrayLike, uv: ArrayLike, *, smoothing: float = 0.0, near
     spacing = _spacings(plane[members], discs)
     discs = np.column_stack([discs, spacing])
     centres = (plane[members] - discs[:, None, :2]) / spacing[:, None, None]
-    coefficients = _splines(cloud, members, centres, smoothing)
+    coefficients = solve_splines(cloud, members, centres, smoothing)
     return RadialSurface(np.array([plane.min(axis=0), plane.max(axis=0)]), discs, _boxes(discs), centres, coefficients)
 
 
@@ -183,8 +180,8 @@ def _spacings(near: Floats, discs: Floats) -> Floats:
     """
     offset = near - near.mean(axis=1, keepdims=True)
     covariance = offset.swapaxes(1, 2) @ offset / near.shape[1]
-    quadratics = _quadratics(offset / np.sqrt(np.trace(covariance, axis1=1, axis2=2))[:, None, None])
-    values = np.linalg.eigvalsh(quadratics.swapaxes(1, 2) @ quadratics)
+    terms = quadratics(offset / np.sqrt(np.trace(covariance, axis1=1, axis2=2))[:, None, None])
+    values = np.linalg.eigvalsh(terms.swapaxes(1, 2) @ terms)
     flat = np.flatnonzero(values[:, 0] <= FLATTEST * values[:, -1])
     if len(flat):
         u, v, _ = discs[flat[0]]
@@ -194,69 +191,6 @@ def _spacings(near: Floats, discs: Floats) -> Floats:
             "raise nearby"
         )
     return np.asarray(np.sqrt(4.0 * pi * np.sqrt(np.linalg.det(covariance)) / near.shape[1]))
-
-
-def _splines(points: Points, members: Indices, centres: Floats, smoothing: float) -> Floats:
-    """Solve for the coefficients of the spline of each disc, (d, k + 6, 3)."""
-    n_discs, k = members.shape
-    # The transform of r^5 is -450 pi / w^7, so a wave of frequency w is halved by this multiple of the bending.
-    multiple = 450.0 * pi * (smoothing / (2.0 * pi)) ** 7
-    coefficients, miss = np.empty((n_discs, k + 6, 3)), np.empty((n_discs, k))
-
-    def solve(first: int, last: int) -> None:
-        for start in range(first, last, BLOCK):
-            block = slice(start, min(start + BLOCK, last))
-            coefficients[block], miss[block] = _solve_block(points[members[block]], centres[block], multiple)
-
-    # The matrices are too small for threads of the linear algebra to pay: the discs have theirs.
-    with ONE_THREAD, threadpool_limits(1):
-        over_ranges(solve, n_discs)
-    if not miss.max() <= LARGEST_MISS:
-        raise _missed(miss, members, centres)
-    return coefficients
-
-
-def _missed(miss: Floats, members: Indices, centres: Floats) -> SolveError:
-    """Name a point that the surface misses most, and the closest two parameters of such discs."""
-    worst = np.argsort(-miss.max(axis=1), kind="stable")[:BLOCK]
-    worst = worst[miss[worst].max(axis=1) > LARGEST_MISS]
-    gaps = np.linalg.norm(centres[worst, :, None] - centres[worst, None], axis=3)
-    gaps[:, np.arange(centres.shape[1]), np.arange(centres.shape[1])] = np.inf
-    d, i, j = np.unravel_index(np.argmin(gaps), gaps.shape)
-    return SolveError(
-        f"the surface misses point {{missed}} by {miss.max():.2g} of the extent of its disc, because the parameters of "
-        f"points {{close}} are only {gaps[d, i, j]:.2g} spacings apart; separate them, or use some smoothing",
-        missed=members.flat[np.argmax(miss)],
-        close=members[worst[d], [i, j]],
-    )
-
-
-def _solve_block(near: Floats, centres: Floats, multiple: float) -> tuple[Floats, Floats]:
-    """Return the coefficients of a few discs, and how far they miss their system, over the extent of the points."""
-    count, k, _ = centres.shape
-    matrix, right = np.zeros((count, k + 6, k + 6)), np.zeros((count, k + 6, 3))
-    difference = centres[:, :, None] - centres[:, None]
-    # Minus r^5 is positive on what quadratics leave (Wendland 2005, chapter 8), so the multiple adds to it.
-    matrix[:, :k, :k] = multiple * np.eye(k) - np.einsum("...x,...x", difference, difference) ** 2.5
-    matrix[:, :k, k:] = _quadratics(centres)
-    matrix[:, k:, :k] = matrix[:, :k, k:].swapaxes(1, 2)
-    middle = near.mean(axis=1)
-    right[:, :k] = near - middle[:, None]
-    try:
-        solution = np.linalg.solve(matrix, right)
-    except np.linalg.LinAlgError:
-        return np.zeros_like(right), np.full((count, k), np.inf)
-    extent = np.abs(right).max(axis=(1, 2))[:, None]
-    miss = np.linalg.norm(right - matrix @ solution, axis=2)[:, :k] / np.where(extent > 0.0, extent, 1.0)
-    solution[:, k] += middle
-    solution[:, :k] *= -1.0
-    return solution, miss
-
-
-def _quadratics(places: Floats) -> Floats:
-    """Return 1, u, v, u^2, u v and v^2 at places, (..., 6)."""
-    u, v = places[..., 0], places[..., 1]
-    return np.stack([np.ones_like(u), u, v, u * u, u * v, v * v], axis=-1)
 
 
 def _boxes(discs: Floats) -> Floats:

@@ -15,7 +15,7 @@ from ..gaps.bridges import BridgedPatch
 from ..gaps.rules import BoundaryAndGaps, GapRule, leave_gaps_open, refuse_second_boundary
 from ..mesh.connectivity import boundary_loops, half_edges
 from ..pipeline import LayoutRule, Reconstruction, reconstruct
-from ..plane.exact_signs import is_simple
+from ..plane.crossings import is_simple
 from ..plane.polygons import signed_area
 from ..typing import UV, Points, Triangles
 from . import Deviation, Fit, fit_bspline, measure_deviation, squares

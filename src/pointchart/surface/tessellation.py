@@ -12,7 +12,8 @@ from ..errors import InputError
 from ..mesh.connectivity import start_draft
 from ..mesh.delaunay_swaps import swap_to_delaunay
 from ..mesh.planar_delaunay import coinciding, triangulate
-from ..plane.exact_signs import is_simple
+from ..plane.crossings import is_simple
+from ..plane.polygons import check_polygon, check_senses, sides_at, signed_area
 from ..typing import UV, Floats, Indices, Mask, Points, Triangles
 from .derivatives import Surface
 
@@ -67,7 +68,7 @@ def tessellate(surface: Surface, loops: Sequence[ArrayLike], n: int) -> tuple[Po
     """
     if n < 1:
         raise InputError(f"{n} points cannot fill a surface; ask for at least 1")
-    polygons = [np.array(loop, dtype=np.float64) for loop in loops]
+    polygons = [check_polygon(f"loop {k}", loop) for k, loop in enumerate(loops)]
     area = _check_loops(polygons)
     scale = _scale(surface, polygons[0])
     polygons = [polygon * scale for polygon in polygons]
@@ -89,17 +90,10 @@ def _check_loops(polygons: list[UV]) -> float:
     """Return the area inside the loops, or say what is wrong with them."""
     if not polygons:
         raise InputError("there are no loops; give the outer one at least")
-    areas = np.empty(len(polygons))
     for k, polygon in enumerate(polygons):
-        if polygon.ndim != 2 or polygon.shape[1] != 2 or len(polygon) < 3 or not np.isfinite(polygon).all():
-            raise InputError(f"loop {k} has shape {polygon.shape}; at least 3 finite corners, (b, 2), are needed")
-        x, y = (polygon - polygon[0]).T
-        areas[k] = 0.5 * (x * np.roll(y, -1) - y * np.roll(x, -1)).sum()
-        if areas[k] == 0.0 or not is_simple(polygon):
+        if signed_area(polygon) == 0.0 or not is_simple(polygon):
             raise InputError(f"loop {k} of {len(polygon)} corners crosses or touches itself; give a simple polygon")
-        if (areas[k] < 0.0) == (k == 0):
-            way = "clockwise, but the outer one" if k == 0 else "anticlockwise, but a hole"
-            raise InputError(f"loop {k} runs {way} has the surface on its left; reverse it")
+    areas = check_senses(polygons)
     if areas.sum() <= 0.0:
         raise InputError(f"{len(areas) - 1} holes are together as large as loop 0; they lie side by side inside it")
     return float(areas.sum())
@@ -118,7 +112,7 @@ def _scale(surface: Surface, outer: UV) -> Floats:
 
 
 def _lengths(polygon: UV) -> Floats:
-    return np.asarray(np.linalg.norm(np.roll(polygon, -1, axis=0) - polygon, axis=1))
+    return np.asarray(np.linalg.norm(sides_at(polygon)[1], axis=1))
 
 
 def _pieces(polygon: UV, spacing: float) -> Indices:
@@ -129,7 +123,7 @@ def _pieces(polygon: UV, spacing: float) -> Indices:
 def _cut(polygon: UV, pieces: Indices) -> UV:
     """Cut each side of a polygon into equal pieces; its corners stay as they are."""
     side, step = _counted(pieces)
-    along = (np.roll(polygon, -1, axis=0) - polygon)[side]
+    along = sides_at(polygon)[1][side]
     return np.asarray(polygon[side] + (step / pieces[side])[:, None] * along)
 
 

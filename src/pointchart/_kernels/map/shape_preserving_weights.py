@@ -2,6 +2,8 @@
 
 from numba import njit
 
+from ..plane.areas import cross
+
 
 @njit(cache=True, nogil=True)
 def shape_preserving(local, indptr, is_open, first, last, weight):
@@ -18,10 +20,10 @@ def shape_preserving(local, indptr, is_open, first, last, weight):
             xj, yj = local[j, 0], local[j, 1]
             for k in range(begin, end):
                 m = k + 1 if k + 1 < end else begin
-                at_k = yj * local[k, 0] - xj * local[k, 1]  # cross(ray, k), with the ray along -j
-                at_m = yj * local[m, 0] - xj * local[m, 1]
+                at_k = cross(-xj, -yj, local[k, 0], local[k, 1])
+                at_m = cross(-xj, -yj, local[m, 0], local[m, 1])
                 if at_k <= 0.0 and at_m > 0.0:
-                    opposite = local[k, 0] * local[m, 1] - local[k, 1] * local[m, 0]
+                    opposite = cross(local[k, 0], local[k, 1], local[m, 0], local[m, 1])
                     total = opposite + at_m - at_k
                     weight[j] += opposite / total
                     weight[k] += at_m / total

@@ -9,7 +9,7 @@ import math
 import numpy as np
 from numba import njit
 
-from .half_edges import following, preceding
+from .half_edges import cross_at, following, preceding
 from .swaps import angle_parts, are_joined, swap
 
 NORMALS, MEAN, GAUSSIAN, PRINCIPAL = 0, 1, 2, 3  # the costs: numbers, as compiled code has no enumerations
@@ -27,9 +27,7 @@ def area_vector(points, a, b, c):
         a, b, c = b, c, a
     elif c < a and c < b:
         a, b, c = c, a, b
-    ux, uy, uz = points[b, 0] - points[a, 0], points[b, 1] - points[a, 1], points[b, 2] - points[a, 2]
-    vx, vy, vz = points[c, 0] - points[a, 0], points[c, 1] - points[a, 1], points[c, 2] - points[a, 2]
-    return uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx
+    return cross_at(points, a, b, c)
 
 
 @njit(cache=True, nogil=True)

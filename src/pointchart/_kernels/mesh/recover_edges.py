@@ -2,6 +2,7 @@
 
 from numba import njit
 
+from ..plane.areas import doubled_area
 from .drafts import first_around, next_around, swap_noted, undo
 from .energy import swap_gain
 from .half_edges import following, preceding
@@ -15,7 +16,7 @@ JOURNAL = 2 * MOST_SWAPS  # both triangles of each swap
 @njit(cache=True, nogil=True, inline="always")
 def side(uv, a, b, c):
     """Return a number that is positive where c lies left of the line from a to b."""
-    return (uv[b, 0] - uv[a, 0]) * (uv[c, 1] - uv[a, 1]) - (uv[b, 1] - uv[a, 1]) * (uv[c, 0] - uv[a, 0])
+    return doubled_area(uv, a, b, uv[c, 0], uv[c, 1])
 
 
 @njit(cache=True, nogil=True)

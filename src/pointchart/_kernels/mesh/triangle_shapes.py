@@ -5,6 +5,7 @@ import math
 import numpy as np
 from numba import njit
 
+from ..plane.areas import doubled_area
 from .half_edges import cross_at
 
 
@@ -21,8 +22,7 @@ def measure_plane_areas(uv, triangles, first, last, areas):
     """Write the area in the plane of triangles first..last, negative for those that turn clockwise."""
     for t in range(first, last):
         a, b, c = triangles[t, 0], triangles[t, 1], triangles[t, 2]
-        area = (uv[b, 0] - uv[a, 0]) * (uv[c, 1] - uv[a, 1]) - (uv[b, 1] - uv[a, 1]) * (uv[c, 0] - uv[a, 0])
-        areas[t] = 0.5 * area
+        areas[t] = 0.5 * doubled_area(uv, a, b, uv[c, 0], uv[c, 1])
 
 
 @njit(cache=True, nogil=True)

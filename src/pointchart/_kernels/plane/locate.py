@@ -4,11 +4,7 @@ import math
 
 from numba import njit
 
-
-@njit(cache=True, nogil=True, inline="always")
-def doubled_area(uv, a, b, x, y):
-    """Return twice the signed area of the triangle of points a and b and the place (x, y)."""
-    return (uv[b, 0] - uv[a, 0]) * (y - uv[a, 1]) - (uv[b, 1] - uv[a, 1]) * (x - uv[a, 0])
+from .areas import doubled_area
 
 
 @njit(cache=True, nogil=True)

@@ -10,6 +10,7 @@ import math
 import numpy as np
 from numba import njit
 
+from ..plane.areas import cross
 from .tangent_planes import tangent_frame
 
 OPEN_GAP_SINE = 1e-6  # a gap within 1e-6 rad of pi counts as open: rounding must not wrap a star across it
@@ -27,16 +28,16 @@ def pseudo_angle(x, y):
 def turns_left(ax, ay, bx, by, cx, cy):
     """Tell whether the path a, b, c turns left by more than rounding."""
     ux, uy, vx, vy = bx - ax, by - ay, cx - bx, cy - by
-    cross = ux * vy - uy * vx
+    way = cross(ux, uy, vx, vy)
     # Squared on both sides, to save two roots in the innermost loop; so the sign is asked first.
-    return cross > 0.0 and cross * cross > FLAT_TURN_SINE**2 * ((ux * ux + uy * uy) * (vx * vx + vy * vy))
+    return way > 0.0 and way * way > FLAT_TURN_SINE**2 * ((ux * ux + uy * uy) * (vx * vx + vy * vy))
 
 
 @njit(cache=True, nogil=True, inline="always")
 def is_one_direction(ax, ay, bx, by):
     """Tell whether two vectors point the same way, but for rounding."""
-    dot, cross = ax * bx + ay * by, ax * by - ay * bx
-    return dot > 0.0 and abs(cross) <= FLAT_TURN_SINE * dot
+    dot = ax * bx + ay * by
+    return dot > 0.0 and abs(cross(ax, ay, bx, by)) <= FLAT_TURN_SINE * dot
 
 
 @njit(cache=True, nogil=True)
@@ -103,7 +104,7 @@ def measure_sides(x, y, turns, n):
         # Grows with the angle, from 0 to 4.
         measure = 1.0 - cosine if span <= 2.0 else 3.0 + cosine
         if measure > widest:
-            between = math.atan2(abs(x[k] * y[m] - y[k] * x[m]), x[k] * x[m] + y[k] * y[m])
+            between = math.atan2(abs(cross(x[k], y[k], x[m], y[m])), x[k] * x[m] + y[k] * y[m])
             widest, angle = measure, between if span <= 2.0 else 2.0 * math.pi - between
         radius = other
     return angle, math.sqrt(mx * mx + my * my) / mr
@@ -113,12 +114,12 @@ def measure_sides(x, y, turns, n):
 def gap_end(x, y, n):
     """Return the neighbour behind a gap of at least pi, anticlockwise, or -1 where there is none."""
     if n < 3:  # such a gap is there always
-        return 0 if n < 2 or x[0] * y[1] - y[0] * x[1] > 0.0 else 1
+        return 0 if n < 2 or cross(x[0], y[0], x[1], y[1]) > 0.0 else 1
     for k in range(n):
         m = k + 1 if k + 1 < n else 0
-        cross = x[k] * y[m] - y[k] * x[m]
+        way = cross(x[k], y[k], x[m], y[m])
         slack = OPEN_GAP_SINE * math.sqrt((x[k] ** 2 + y[k] ** 2) * (x[m] ** 2 + y[m] ** 2))
-        if cross < -slack or (cross <= slack and x[k] * x[m] + y[k] * y[m] < 0.0):
+        if way < -slack or (way <= slack and x[k] * x[m] + y[k] * y[m] < 0.0):
             return m
     return -1
 
@@ -149,10 +150,10 @@ def hull_of_inverses(x, y, n, start, is_open, p, q, stack):
 @njit(cache=True, nogil=True)
 def circumdiameter(ax, ay, bx, by):
     """Return the diameter of the circle through the origin, a and b."""
-    cross = abs(ax * by - ay * bx)
-    if cross == 0.0:
+    doubled = abs(cross(ax, ay, bx, by))
+    if doubled == 0.0:
         return np.inf
-    return math.sqrt((ax * ax + ay * ay) * (bx * bx + by * by) * ((ax - bx) ** 2 + (ay - by) ** 2)) / cross
+    return math.sqrt((ax * ax + ay * ay) * (bx * bx + by * by) * ((ax - bx) ** 2 + (ay - by) ** 2)) / doubled
 
 
 @njit(cache=True, nogil=True)

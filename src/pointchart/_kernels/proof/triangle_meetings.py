@@ -2,7 +2,7 @@
 
 from numba import njit
 
-from ..plane.crossings import turn
+from ..plane.exact_turns import turn
 
 # Shewchuk 1997: a computed determinant has the right sign if it exceeds (7 + 56 eps) eps times the sum of its terms;
 # terms below the second number may have lost digits to underflow.

@@ -1,7 +1,7 @@
 """The steps of Bi-CGSTAB with an algebraic multigrid cycle for its preconditioner, for two right sides in one pass.
 
 Sweeps go over blocks of rows one by one, each as if the others were known: blocks can be shared out among threads, and
-the result does not depend on how. A matrix of a level is kept as in `coarsen`, without its diagonal; index arrays are
+the result does not depend on how. A matrix of a level is kept as in `galerkin`, without its diagonal; index arrays are
 unsigned.
 """
 

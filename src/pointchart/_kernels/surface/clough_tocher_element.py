@@ -8,7 +8,8 @@ import math
 import numpy as np
 from numba import njit
 
-from ..plane.locate import doubled_area, find_triangle
+from ..plane.areas import doubled_area
+from ..plane.locate import find_triangle
 
 
 @njit(cache=True, nogil=True)

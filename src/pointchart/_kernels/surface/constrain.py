@@ -1,13 +1,10 @@
 """Sides that a triangulation in the plane must have, by edge swaps and exact signs."""
 
-import numpy as np
 from numba import njit
 
 from ..mesh.drafts import first_around, next_around, swap_noted
 from ..mesh.half_edges import following, preceding
-from ..plane.crossings import turn
-
-SPLITTER = 134217729.0  # 2^27 + 1: cuts a double of 53 bits into two of 26, whose products are exact (Dekker 1971)
+from ..plane.exact_turns import turn
 
 
 @njit(cache=True, nogil=True)
@@ -41,7 +38,7 @@ def insert_side(draft, ahead, a, b):
             return p
         t = draft.twin[h]
         d = draft.corners[preceding(t)]
-        side = 0 if d == b else exact_turn(draft.points, a, b, d)
+        side = 0 if d == b else turn_of(draft.points, a, b, d)
         if side == 0 and d != b:
             return d
         swap_noted(draft, 0, h)
@@ -68,8 +65,8 @@ def edge_before(draft, a, b):
         p, q = draft.corners[following(h)], draft.corners[preceding(h)]
         if p == b or q == b:
             return -1, -1
-        if exact_turn(draft.points, a, b, q) > 0:
-            side = exact_turn(draft.points, a, p, b)
+        if turn_of(draft.points, a, b, q) > 0:
+            side = turn_of(draft.points, a, p, b)
             if side >= 0:
                 return (h, -1) if side > 0 else (-1, p)
         h = next_around(draft, h)
@@ -86,7 +83,7 @@ def unfold(draft, k, n):
     while n > 0:
         h = next_around(draft, k)
         p, u, v = draft.corners[following(k)], draft.corners[following(h)], draft.corners[preceding(h)]
-        if exact_turn(draft.points, p, u, v) <= 0:
+        if turn_of(draft.points, p, u, v) <= 0:
             k, n, passed = h, n - 1, passed + 1
             continue
         swap_noted(draft, 0, h)
@@ -96,52 +93,7 @@ def unfold(draft, k, n):
             n -= 1
 
 
-@njit(cache=True, nogil=True)
-def exact_turn(points, a, b, c):
-    """Return the exact orientation of three points in the plane, but for underflow: 1 anticlockwise, -1, or 0."""
-    ax, ay, bx, by, cx, cy = points[a, 0], points[a, 1], points[b, 0], points[b, 1], points[c, 0], points[c, 1]
-    sign = turn(ax, ay, bx, by, cx, cy)
-    if sign != 0:
-        return sign
-    terms = np.empty(12)
-    terms[0], terms[1] = two_product(ax, by)
-    terms[2], terms[3] = two_product(-ay, bx)
-    terms[4], terms[5] = two_product(bx, cy)
-    terms[6], terms[7] = two_product(-by, cx)
-    terms[8], terms[9] = two_product(cx, ay)
-    terms[10], terms[11] = two_product(-cy, ax)
-    return sign_of_sum(terms)
-
-
-@njit(cache=True, nogil=True)
-def sign_of_sum(terms):
-    """Return the exact sign of a sum; its terms become an expansion (Shewchuk 1997, theorem 10)."""
-    for n in range(len(terms)):
-        total = terms[n]
-        for i in range(n):
-            total, terms[i] = two_sum(total, terms[i])
-        terms[n] = total
-    for n in range(len(terms) - 1, -1, -1):
-        if terms[n] != 0.0:
-            return 1 if terms[n] > 0.0 else -1
-    return 0
-
-
 @njit(cache=True, nogil=True, inline="always")
-def two_sum(a, b):
-    """Return the rounded sum and its error (Knuth)."""
-    total = a + b
-    virtual = total - a
-    return total, (a - (total - virtual)) + (b - virtual)
-
-
-@njit(cache=True, nogil=True)
-def two_product(a, b):
-    """Return the rounded product and its error (Dekker, Veltkamp)."""
-    product = a * b
-    scaled = SPLITTER * a
-    a_high = scaled - (scaled - a)
-    scaled = SPLITTER * b
-    b_high = scaled - (scaled - b)
-    a_low, b_low = a - a_high, b - b_high
-    return product, a_low * b_low - (((product - a_high * b_high) - a_low * b_high) - a_high * b_low)
+def turn_of(points, a, b, c):
+    """Return the exact orientation of three points in the plane: 1 anticlockwise, -1, or 0."""
+    return turn(points[a, 0], points[a, 1], points[b, 0], points[b, 1], points[c, 0], points[c, 1])

@@ -9,9 +9,9 @@ from ...boundary import BoundaryScores, Candidate
 from ...boundary.bounded import Survey, survey_scan
 from ...clock import StageClock
 from ...errors import points_called
-from ...gaps.rules import place_of
 from ...io import replacing, write_curves, write_loop
 from ...look.run_pictures import PICTURE_SUFFIXES, draw_boundary
+from ...points.places import place_of
 from ...report.record import Note, RunReport
 from ...typing import Attributes, Loop
 from ..boundary_run import BoundaryRun

@@ -13,7 +13,7 @@ from ...report.checks import certificate_checks, summary
 from ...report.mesh_facts import certificate_facts
 from ...report.record import Note, RunReport
 from ..check_run import CheckRun
-from ..inputs import check_outputs, uv_of
+from ..inputs import check_outputs
 from .written import stages_of, untold
 
 NEAR = 1e-6  # of the extent: what single precision leaves of a place
@@ -26,7 +26,7 @@ def execute(run: CheckRun, clock: StageClock) -> RunReport:
     if len(read.triangles) == 0:
         raise InputError(f"{run.mesh}: the file has {len(read.points)} points and no triangles; give a mesh")
     n_left = 0 if run.points is None else _compare(read, read_scan(run.points), run.mesh, run.points)
-    uv = uv_of(read)
+    uv = read.uv
     with clock("certify"):
         proof = certify(read.points, read.triangles, uv=uv, holes=run.holes)
     facts = {"certificate": certificate_facts(proof)}

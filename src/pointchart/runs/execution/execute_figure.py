@@ -20,7 +20,7 @@ from ...look.figures import (
 from ...mesh.distortion import vertex_stretches
 from ...report.record import RunReport, WrittenFile
 from ..figure_run import OF_SURFACES, ON_MESHES, FigureRun
-from ..inputs import check_outputs, uv_of
+from ..inputs import check_outputs
 from ..option_values import Figure
 from .written import stages_of
 
@@ -59,7 +59,7 @@ def _draw_scan(run: FigureRun, look: dict[str, Any]) -> None:
         draw_cloud(run.out, read.points, **look)
     elif run.kind is Figure.mesh:
         draw_mesh(run.out, read.points, read.triangles, **look)
-    elif (uv := uv_of(read)) is None:
+    elif (uv := read.uv) is None:
         raise InputError(f"{source}: its {len(read.points)} points have no u and v; give a mesh that mesh wrote as PLY")
     else:
         draw_plane(run.out, uv, read.triangles, **look)
@@ -69,7 +69,7 @@ def _values(run: FigureRun, read: Scan, name: str) -> NDArray[Any]:
     """Return what a file has for each point by a name; stretch is measured where it is not in the file."""
     if name in read.attributes:
         return read.attributes[name]
-    uv = uv_of(read)
+    uv = read.uv
     if name == "stretch" and uv is not None and len(read.triangles):
         return vertex_stretches(read.points, read.triangles, uv)
     known = ", ".join(read.attributes) or "nothing"

@@ -7,11 +7,10 @@ from typing import Any
 import numpy as np
 
 from ..._parallel import on_threads
-from ...cad import CAD_SUFFIXES
+from ...cad import CAD_SUFFIXES, SURFACE_SUFFIXES, write_surface
 from ...cad.occ import check_extra
 from ...clock import StageClock
 from ...errors import SolveError, points_called
-from ...io import MESH_SUFFIXES
 from ...look.page import PAGE_SUFFIXES, lay_out, writing_page
 from ...look.page.html_page import HtmlPage
 from ...look.run_pictures import PICTURE_SUFFIXES
@@ -27,7 +26,7 @@ from ..choices import GAPS
 from ..fit_run import FitRun
 from ..inputs import Inputs, check_outputs, read_inputs
 from .measured import measure_mesh
-from .surface_files import HOLD_DEVIATIONS, write_beside, write_surface
+from .surface_files import HOLD_DEVIATIONS, write_beside
 from .written import options_facts, page_words, stages_of, untold
 
 
@@ -71,7 +70,7 @@ def _surfaced(run: FitRun, clock: StageClock) -> tuple[Inputs, float, SurfacedSc
 def _check_files(run: FitRun) -> None:
     out, told = run.files.out, run.told
     outputs = (
-        (out, (*CAD_SUFFIXES, ".json", *MESH_SUFFIXES)),
+        (out, SURFACE_SUFFIXES),
         (run.files.deviations, HOLD_DEVIATIONS),
         (run.files.picture, PICTURE_SUFFIXES),
         (run.files.reflections, PICTURE_SUFFIXES),
@@ -110,7 +109,7 @@ def _written(
     page = _page(run, meshed, surfaced, facts, clock)
     with ExitStack() as stack, writing_json(run.told.report, facts), writing_page(run.told.html, page):
         write_beside(run, inputs, surfaced, allowed, stack)
-        write_surface(run.files.out, surfaced, run.surface.unit)
+        write_surface(run.files.out, surfaced.fit.surface, surfaced.loops, unit=run.surface.unit)
     notes = [*choices, *boundary_notes(surfaced.reconstruction, meshed.points, found=not run.given.is_given)]
     notes += [*intersection_notes(meshed.intersections), *surface_notes(surfaced, *measure)]
     files = tuple(_files(run, page))

@@ -1,34 +1,18 @@
-"""The files of a fit: the surface, its deviations and its pictures."""
+"""The files of a fit beside the surface: its deviations and its pictures."""
 
 from contextlib import ExitStack
 from pathlib import Path
 
 import numpy as np
 
-from ...cad import CAD_SUFFIXES, write_cad, write_surface_json
-from ...io import replacing, write_mesh, write_uv
+from ...io import replacing, write_uv
 from ...look.surface_pictures import draw_deviation, draw_reflections
-from ...surface import tessellate
 from ...surface.surfacing import SurfacedScan
 from ..fit_run import FitRun
 from ..inputs import Inputs
-from ..option_values import Unit
 from .written import carried
 
-TESSELLATED = 100_000  # points of the mesh of a surface
 HOLD_DEVIATIONS = (".csv", ".ply", ".npz")  # formats that hold any number a point
-
-
-def write_surface(out: Path, surfaced: SurfacedScan, unit: Unit) -> None:
-    """Write the surface, or triangles of it, as the suffix says."""
-    surface, loops, suffix = surfaced.fit.surface, surfaced.loops, out.suffix.lower()
-    if suffix in CAD_SUFFIXES:
-        write_cad(out, surface, loops, unit=unit, name=out.stem)
-    elif suffix == ".json":
-        write_surface_json(out, surface, loops, unit=unit)
-    else:
-        points, triangles, uv = tessellate(surface, loops, TESSELLATED)
-        write_mesh(out, points, triangles, uv=uv)
 
 
 def write_beside(run: FitRun, inputs: Inputs, surfaced: SurfacedScan, allowed: float, stack: ExitStack) -> None:
