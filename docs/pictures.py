@@ -15,7 +15,7 @@ import pointchart as pc
 from pointchart import shapes
 from pointchart.agreement.agreed_surface import agreed_patchwork
 from pointchart.boundary.bounded import survey_scan
-from pointchart.look.run_pictures import ACCENT, FAINT, INK, PAPER
+from pointchart.look.paint import ACCENT, FAINT, INK, PAPER
 from pointchart.mesh.assembly import assemble as assembled
 
 STEEL = "#3a8fb7"

@@ -11,11 +11,10 @@ from matplotlib import colors, image
 from matplotlib import pyplot as plt
 
 from pointchart import FormatError, InputError, shapes
-from pointchart.look import raster as scene
 from pointchart.look.camera import camera, upright_axes, upward
 from pointchart.look.figures import Sheet, draw_cloud, draw_deviation_map, draw_mesh, draw_plane, draw_zebra
-from pointchart.look.figures import surfaces as of_surfaces
-from pointchart.look.run_pictures import ACCENT, INK
+from pointchart.look.paint import ACCENT, INK
+from pointchart.look.raster import rasterize
 from pointchart.surface import BSplineSurface, evaluate
 
 DISC = shapes.disc(400, seed=1)
@@ -48,8 +47,7 @@ LABELS = {"cloud": "score", "plane": "score", "mesh": "score", "deviation": "dev
 def coarse():
     """Look at surfaces through fewer points, on fewer pixels."""
     with pytest.MonkeyPatch.context() as patch:
-        for module in (scene, of_surfaces):
-            patch.setattr(module, "GRID", 300)
+        patch.setattr("pointchart.look.surface_raster.GRID", 300)
         patch.setattr("pointchart.look.figures.sheet.MOST_PIXELS", 60_000)
         yield
     assert plt.get_fignums() == []
@@ -130,7 +128,7 @@ def test_lines_stay_lines_up_to_a_number_and_become_one_image_beyond(tmp_path, m
     plane = tmp_path / "a.svg"
     draw_plane(plane, DISC.uv, DISC.triangles)
     assert b"<image" not in plane.read_bytes()
-    monkeypatch.setattr("pointchart.look.run_pictures.MOST_SHAPES", 100)
+    monkeypatch.setattr("pointchart.look.paint.MOST_SHAPES", 100)
     draw_plane(plane, DISC.uv, DISC.triangles)
     assert plane.read_bytes().count(b"<image") == 1
 
@@ -394,7 +392,7 @@ def test_a_vertex_in_no_triangle_does_not_matter(tmp_path):
 
 
 def test_a_pixel_interpolates_the_place_that_it_shows():
-    raster = scene.rasterize(CAP.points, CAP.triangles, 20_000)
+    raster = rasterize(CAP.points, CAP.triangles, 20_000)
     height, width = raster.is_seen.shape
     left, right, bottom, top = raster.box
     row, column = np.nonzero(raster.is_seen)

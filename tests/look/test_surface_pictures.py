@@ -10,9 +10,8 @@ from matplotlib import pyplot as plt
 from strategies import rotations
 
 from pointchart import FormatError, InputError
-from pointchart.look import raster as scene
-from pointchart.look.raster import reflection_angles
-from pointchart.look.run_pictures import INK, PAPER
+from pointchart.look.paint import INK, PAPER
+from pointchart.look.reflections import reflection_angles
 from pointchart.look.surface_pictures import draw_deviation, draw_reflections
 from pointchart.surface import BSplineSurface, Deviation, evaluate, normals
 
@@ -33,8 +32,8 @@ X, Y, Z = np.eye(3)
 @pytest.fixture
 def coarse(monkeypatch):
     """Sample fewer pixels than are printed."""
-    monkeypatch.setattr(scene, "PIXELS", 60_000)
-    monkeypatch.setattr(scene, "GRID", 1000)
+    monkeypatch.setattr("pointchart.look.surface_pictures.PIXELS", 60_000)
+    monkeypatch.setattr("pointchart.look.surface_raster.GRID", 1000)
 
 
 def deviation_drawn(path, signed, surface=FLAT, **options):

@@ -42,7 +42,8 @@ def boundary(
     from ..boundary.bounded import survey_scan
     from ..errors import points_called
     from ..io import check_output, replacing, write_curves, write_loop
-    from ..look.run_pictures import PICTURE_SUFFIXES, draw_boundary
+    from ..look.paint import PICTURE_SUFFIXES
+    from ..look.run_pictures import draw_boundary
     from .choices import outer_place
     from .inputs import read_inputs
 

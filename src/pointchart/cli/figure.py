@@ -79,7 +79,8 @@ def figure(
 ) -> None:
     """Draw a figure for a paper: a cloud, a parameter plane, a mesh, a deviation map or lines of light (zebra)."""
     from ..io import check_output
-    from ..look.figures import PICTURE_SUFFIXES, Sheet
+    from ..look.figures import Sheet
+    from ..look.paint import PICTURE_SUFFIXES
 
     _check_options(
         kind,

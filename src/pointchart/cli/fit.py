@@ -109,7 +109,7 @@ def fit(
     from ..errors import points_called
     from ..io import MESH_SUFFIXES, check_output, replacing
     from ..look.page import PAGE_SUFFIXES, lay_out, writing_page
-    from ..look.run_pictures import PICTURE_SUFFIXES
+    from ..look.paint import PICTURE_SUFFIXES
     from ..look.surface_pictures import draw_deviation, draw_reflections
     from ..report import boundary_lines, intersection_lines, run_report, writing_json
     from ..surface import huber, squares
