@@ -2,7 +2,7 @@ PYTHON ?= python3
 BIN := .venv/bin
 PEERS ?= $(BIN)/python
 
-.PHONY: help demo test check format docs figures bench tables clean
+.PHONY: help demo test check format docs figures rooms bench tables clean
 
 help:  ## print this menu
 	@awk -F ':.*## ' '/^[a-z]+:.*## /{printf "make %-8s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -57,6 +57,10 @@ figures: .venv/dev  ## draw the pictures of the docs
 	$(BIN)/python benchmarks/boundaries.py --picture docs/figures/boundary.png
 	$(BIN)/python docs/pictures.py docs/figures
 	$(BIN)/python docs/screenshots.py docs/figures
+	$(BIN)/python docs/rooms.py
+
+rooms: .venv/run  ## draw the rooms of the package from its imports, and write their tables, in docs/developers.md
+	$(BIN)/python docs/rooms.py
 
 clean:  ## remove everything that make has built
 	rm -rf .venv demo build docs/examples

@@ -13,7 +13,8 @@ import pointchart as pc
 from pointchart import shapes
 from pointchart.clock import StageClock
 from pointchart.look.page import lay_out
-from pointchart.report import run_report
+from pointchart.report.mesh_facts import mesh_facts
+from pointchart.runs.execution.measured import measure_mesh
 
 DRAWING_IN_SOFTWARE = [
     "--no-sandbox",
@@ -35,7 +36,7 @@ def main() -> None:
             scan = shapes.sculpture(n).points
             result = pc.reconstruct(scan)
             points = scan[result.rows]
-            run = run_report(scan, np.arange(len(scan)), result, StageClock(), {}, boundary_given=False)
+            run = mesh_facts(measure_mesh(scan, np.arange(len(scan)), result, StageClock()), StageClock(), {})
             start = time.perf_counter()
             laid = lay_out(points, result, run, title="a scan", command="")
             laid_out = time.perf_counter() - start

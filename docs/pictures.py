@@ -17,6 +17,7 @@ from pointchart.agreement.agreed_surface import agreed_patchwork
 from pointchart.boundary.bounded import survey_scan
 from pointchart.look.paint import ACCENT, FAINT, INK, PAPER
 from pointchart.mesh.assembly import assemble as assembled
+from pointchart.mesh.connectivity import half_edges as pair
 
 STEEL = "#3a8fb7"
 SCALE = mpl.colors.LinearSegmentedColormap.from_list("score", [FAINT, STEEL, INK])
@@ -251,6 +252,45 @@ def surface():
     return figure
 
 
+def half_edges():
+    """Draw the half-edges of a small mesh by their numbers, and what one of them leads to."""
+    places = np.array([[0, 0], [2, 0.1], [3.1, 1.7], [1.3, 1.5], [-0.3, 2.3], [2.3, 2.9]])
+    triangles = np.array([[0, 1, 3], [1, 2, 3], [3, 2, 5], [3, 4, 0]])
+    edges = pair(triangles, len(places))
+    titles = "half-edge 3 t + k leaves corner k of triangle t", "what a half-edge h leads to"
+    figure, (left, right) = panels(2, *titles, width=10.0, height=4.9)
+    middles = places[triangles].mean(axis=1)
+    for panel in (left, right):
+        filled(panel, places, triangles, "#eef2f2", "#9fb0b5")
+        panel.scatter(*places.T, s=260, c=PAPER, edgecolors=INK, linewidths=1.0, zorder=3)
+        for v, place in enumerate(places):
+            panel.text(*place, str(v), ha="center", va="center", color=INK, fontsize=10, zorder=4)
+        panel.set(xlim=(-0.55, 3.4), ylim=(-0.3, 3.2))
+    for t, middle in enumerate(middles):
+        left.text(*middle, f"t = {t}", ha="center", va="center", color="#7b8790", fontsize=9)
+    for h, twin in enumerate(edges.twins):
+        _half_edge(left, places, middles, edges, h, INK if twin >= 0 else ACCENT, str(h))
+    h = 5
+    names = [(h, "h"), (3, "following(h)"), (4, "preceding(h)")]
+    names += [(int(edges.twins[h]), "twins[h]"), (int(edges.twins[4]), "twins[preceding(h)]")]
+    for number, words in names:
+        _half_edge(right, places, middles, edges, number, ACCENT if number == h else INK, words)
+    return figure
+
+
+def _half_edge(axes, places, middles, edges, h, color, words):
+    """Draw an arrow beside the edge, within the half-edge's triangle, and words beside the arrow."""
+    middle = middles[h // 3]
+    tail, head = (0.8 * places[ends[h]] + 0.2 * middle for ends in (edges.origins, edges.targets))
+    tail, head = 0.85 * tail + 0.15 * head, 0.15 * tail + 0.85 * head
+    axes.annotate("", head, tail, arrowprops={"arrowstyle": "-|>", "color": color, "shrinkA": 0, "shrinkB": 0})
+    at = 0.5 * (tail + head)
+    inwards = (middle - at) / np.linalg.norm(middle - at)
+    angle = np.degrees(np.arctan2(*(head - tail)[::-1])) if len(words) > 2 else 0.0
+    angle -= 180.0 * (abs(angle) > 90.0) * np.sign(angle)
+    axes.text(*(at + 0.13 * inwards), words, ha="center", va="center", color=color, fontsize=9, rotation=angle)
+
+
 PICTURES = {
     "prepare": prepare,
     "neighbourhoods": neighbourhoods,
@@ -261,7 +301,9 @@ PICTURES = {
     "chart": chart,
     "certificate": certificate,
     "surface": surface,
+    "half_edges": half_edges,
 }
+NO_STAGES = {"half_edges"}
 
 
 def main(folder: Path, *only: str) -> None:
@@ -270,7 +312,7 @@ def main(folder: Path, *only: str) -> None:
 
     for name in only or PICTURES:
         figure = PICTURES[name]()
-        path = folder / f"stage_{name}.png"
+        path = folder / (f"{name}.png" if name in NO_STAGES else f"stage_{name}.png")
         figure.savefig(path, dpi=120, facecolor=PAPER)
         plt.close(figure)
         Image.open(path).convert("RGB").quantize(128, Image.Quantize.FASTOCTREE, dither=Image.Dither.NONE).save(

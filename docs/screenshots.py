@@ -12,10 +12,10 @@ from pathlib import Path
 import numpy as np
 from PIL import Image
 from playwright.sync_api import sync_playwright
+from pointchart.app.job import PROGRAM
 
 from pointchart import read_scan, shapes, write_mesh
 from pointchart.app.browser_app import open_page
-from pointchart.app.job import PROGRAM
 from pointchart.cli.view import commands
 
 # Drawn in software, so that every machine gives the same picture.

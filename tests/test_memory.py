@@ -1,7 +1,8 @@
+import numpy as np
 import pytest
 
 from pointchart import InputError, _memory, shapes
-from pointchart._memory import check_room, free_bytes
+from pointchart._memory import check_room, free_bytes, peak_memory_mb
 from pointchart.boundary.bounded import survey_scan
 
 
@@ -37,3 +38,10 @@ def test_the_limit_of_a_container_counts(tmp_path, most, used, left):
 def test_the_machine_has_memory_left():
     free = free_bytes()
     assert free is None or free > 0
+
+
+def test_the_peak_memory_never_falls_and_holds_the_largest_array():
+    before = peak_memory_mb()
+    size_mb = np.ones(2**24).nbytes // 2**20
+    assert peak_memory_mb() >= max(before, size_mb)
+    assert before < 10**6

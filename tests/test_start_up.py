@@ -113,7 +113,7 @@ def test_a_folder_that_can_be_written_is_left_to_numba(read_only, tmp_path, name
 
 
 def test_the_first_run_says_why_it_takes_longer_unless_it_is_to_be_quiet(tmp_path):
-    code = "from pointchart.cli.progress import staged\nwith staged(quiet={}): pass"
+    code = "from pointchart.cli.progress import staged\nwith staged(quiet={}) as clock, clock('prepare'): pass"
     spoken, quiet = (python("-c", code.format(quiet), NUMBA_CACHE_DIR=str(tmp_path)) for quiet in (False, True))
     assert spoken.stderr.startswith("pointchart: first run on this machine: compiling its kernels, once")
     assert (len(spoken.stderr.splitlines()), quiet.stderr) == (1, "")
@@ -124,6 +124,6 @@ def test_later_runs_say_nothing_of_compiling(capsys):
 
     points = shapes.disc(60).points
     delaunay_star(points, nearest(points, 12))
-    with staged(False):
+    with staged(False) as clock, clock("prepare"):
         pass
     assert capsys.readouterr().err == ""

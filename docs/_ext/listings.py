@@ -1,7 +1,9 @@
-"""Directives that list what the package has, so that no page holds a copy: its commands and its public names."""
+"""Directives that list what the package has, so that no page holds a copy: commands, public names, modules."""
 
 import inspect
+import runpy
 from importlib import import_module
+from pathlib import Path
 
 from docutils import nodes
 from docutils.parsers.rst import Directive
@@ -66,6 +68,20 @@ class Names(Directive):
         return parsed(self, lines)
 
 
+class Modules(Directive):
+    """A table of the modules of each room, with the first line of their docstrings."""
+
+    def run(self) -> list[nodes.Node]:
+        """Read the files, each time."""
+        self.state.document.settings.env.note_reread()
+        listed = runpy.run_path(str(Path(__file__).parents[1] / "rooms.py"))["every_module"]()
+        lines = [".. list-table::", "   :widths: 40 60", ""]
+        for path, purpose in listed:
+            words = purpose.replace("``", "`").replace("`", "``")
+            lines += [f"   * - ``{path}``", f"     - {words}"]
+        return parsed(self, [*lines, ""])
+
+
 def table(paths: list[str]) -> list[str]:
     """Return the lines of a table of names."""
     return [".. autosummary::", "   :nosignatures:", "", *(f"   ~{path}" for path in paths), ""]
@@ -95,6 +111,7 @@ def _kind(thing: object) -> str:
 def setup(app: Sphinx) -> dict[str, bool]:
     """Add the directives."""
     app.add_directive("commands", Commands)
+    app.add_directive("modules", Modules)
     app.add_directive("names", Names)
     app.add_directive("summary", Summary)
     return {"parallel_read_safe": True, "parallel_write_safe": True}

@@ -10,6 +10,7 @@ from functools import cache
 from pathlib import Path
 from typing import Self
 
+# Rows of a range: a choice. Few enough that all cores end together, many enough that to hand one out costs nothing.
 CHUNK, LEAST_CHUNK = 8192, 1024
 FEWEST = 8  # blocks: for less than 16,384 rows of a matrix, to wake another thread costs more than it saves
 _given: ContextVar[int | None] = ContextVar("_given", default=None)

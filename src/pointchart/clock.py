@@ -4,8 +4,6 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
-STAGES = "POINTCHART_STAGES"  # in the environment: whoever runs a command reads its stages on stderr, one a line
-
 
 class StageClock:
     """Time named stages one after the other.

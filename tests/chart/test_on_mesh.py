@@ -33,13 +33,15 @@ from pointchart.boundary import chord_length_on_circle
 from pointchart.chart import on_mesh as charts
 from pointchart.chart.free_boundary import first_flat
 from pointchart.chart.on_mesh import DIRECT_LIMIT, QUICK_TOLERANCES
-from pointchart.cli.choices import CHARTS, Chart
 from pointchart.mesh.make import Meshed
+from pointchart.mesh.mesh_quality import measure_quality
 from pointchart.mesh.quality import area_vectors
 from pointchart.mesh.swap_rule import Swapped
 from pointchart.plane.exact_signs import is_simple, orientation_signs
 from pointchart.proof.certificate import check_proof
-from pointchart.report import quality_report
+from pointchart.report.mesh_facts import quality_facts
+from pointchart.runs.choices import CHARTS
+from pointchart.runs.option_values import Chart
 
 ONE_TO_ONE = [uv_on_mesh, uv_low_stretch, uv_free_boundary]
 PROTRUDING = {"hemisphere": lambda: shapes.hemisphere(500, angle=150), "tube": lambda: shapes.tube(6, n_around=16)}
@@ -355,13 +357,13 @@ def test_a_flat_triangle_is_infinitely_distorted_and_null_in_the_report():
     assert linf_stretch(SQUARE, WHOLE, uv) == float("inf")
     assert conformal_distortions(SQUARE, WHOLE, uv)[0] == float("inf")
     assert area_distortions(SQUARE, WHOLE, uv)[0] == float("inf")
-    report = quality_report(SQUARE, WHOLE, uv)
+    report = quality_facts(measure_quality(SQUARE, WHOLE, uv))
     assert report["l2_stretch"] is report["linf_stretch"] is report["area"]["mean"] is None
     json.dumps(report, allow_nan=False)
 
 
 def test_the_report_of_an_isometry_holds_every_measure_and_each_is_one():
-    report = quality_report(SQUARE, WHOLE, SQUARE[:, :2])
+    report = quality_facts(measure_quality(SQUARE, WHOLE, SQUARE[:, :2]))
     assert report["l2_stretch"] == report["linf_stretch"] == pytest.approx(1.0)
     for name in ("conformal", "area"):
         assert report[name] == {key: pytest.approx(1.0) for key in ("mean", "percentile_95", "largest")}
@@ -373,7 +375,7 @@ def test_the_percentile_of_the_report_weighs_by_area():
     uv = points[:, :2] * [1, 1]
     uv[4, 1] = 1.5
     triangles = np.array([[0, 1, 2], [0, 2, 4], [0, 4, 3]])
-    report = quality_report(points, triangles, uv)["conformal"]
+    report = quality_facts(measure_quality(points, triangles, uv))["conformal"]
     assert report["percentile_95"] < report["largest"]
 
 

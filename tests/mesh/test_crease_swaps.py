@@ -9,7 +9,6 @@ from strategies import planar_discs, rotations, seeds
 
 from pointchart import shapes
 from pointchart._kernels.mesh import curvature_swaps as kernels
-from pointchart.cli.choices import SWAPS, Swap
 from pointchart.mesh.connectivity import boundary_loops, half_edges
 from pointchart.mesh.crease_swaps import (
     swap_to_least_curvature,
@@ -21,6 +20,8 @@ from pointchart.mesh.delaunay_swaps import swap_to_delaunay
 from pointchart.pipeline import reconstruct
 from pointchart.points.neighbors import spacing
 from pointchart.proof.certificate import certify
+from pointchart.runs.choices import SWAPS
+from pointchart.runs.option_values import Swap
 
 
 def bends(points, triangles):

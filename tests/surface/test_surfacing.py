@@ -210,14 +210,14 @@ def test_a_surface_out_of_tolerance_is_refused_with_its_figures_and_the_remedy()
         check_met(missed, 1e-6, 0.005)
     assert str(refusal.value) == (
         f"the surface of {missed.fit.surface.n_control} control points deviates by {off.largest(0.005):.4g} but for "
-        f"0.5 % of the points (RMS {off.rms:.4g}), more than the tolerance of 1e-06; allow more control points or "
+        f"0.5 % of the points (RMS {off.rms:.4g}), more than the tolerance of 1e-06; allow more control points, take "
         "a larger tolerance, or take the best that there is"
     )
     noisy = replace(missed, fit=replace(missed.fit, is_noise=True))
     held_out = min(level.held_out for level in missed.fit.levels)
     advice = max(3 * held_out, 1.1 * off.largest(0.005))
     with pytest.raises(
-        SolveError, match=rf"stay {held_out:.3g} away \(RMS\); take a tolerance of about {advice:.2g}, or"
+        SolveError, match=rf"stay {held_out:.3g} away \(RMS\), which allows a tolerance of about {advice:.2g}; take"
     ):
         check_met(noisy, 1e-6, 0.005)
     check_met(replace(missed, fit=replace(missed.fit, is_met=True)), 1e-6, 0.005)

@@ -22,7 +22,7 @@ from ..errors import InputError
 from ..points.neighbors import Neighborhoods
 from ..typing import Floats, Indices, Loop, Mask, Triangles
 
-LEAST_VOTES, ALL_VOTES = 2, 3
+LEAST_VOTES, ALL_VOTES = 2, 3  # of the stars of its corners, for a triangle to be taken; and to be taken first
 WIDEST = 2.0  # circumradius of the largest triangle taken, in local spacings
 
 
@@ -102,6 +102,7 @@ class Patchwork:
         bare = replace(self, spare=self.spare[:0], spare_edges=self.spare_edges[:0])
         if k == 0:
             return bare
+        # At edges of the boundary the side without a triangle is held by one that is not there, so no spare one fits.
         ahead = np.full(self.n_points, -1, np.int32)
         ahead[loop] = np.roll(loop, -1)
         sides, (a, b) = self.sides.copy(), self.ends.T

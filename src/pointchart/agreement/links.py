@@ -13,9 +13,9 @@ from ..map.weights import WeightScheme, normalize, reciprocal_distance
 from ..points.neighbors import Neighborhoods
 from ..typing import Floats, Indices, Loop, Mask, Points, Weights
 
-FULL_TRUST = 1.0
+FULL_TRUST = 1.0  # factor of the weight: as it is
 LONE_TRUST = 0.01  # a link that only one star sees: never 0, since the graph must stay connected
-TIES = 3  # of a point that hangs on one point: to as many points beside
+TIES = 3  # of a point that hangs on one point: to as many points beside, since two may lie on a line with it
 
 
 @dataclass(frozen=True, slots=True, eq=False)

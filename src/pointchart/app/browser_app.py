@@ -9,21 +9,18 @@ from ..io import Scan
 from ..typing import Loop
 from .boundary_step import BoundaryStep
 from .cloud_steps import SHOW, NeighbourhoodStep, add_cloud
-from .command import Commands
 from .result_steps import MeshStep, SurfaceStep, UVStep
-from .session import Page, Told
+from .session import Session, Told
 
 Click = Callable[[int, viser.SceneClickEvent], object]
 
 
-def open_page(
-    path: Path, scan: Scan, commands: Commands, *, loop: Loop | None = None, tell_close: Told | None = None
-) -> Page:
-    """Open the page of a scan; see `Page` for the parameters.
+def open_page(path: Path, scan: Scan, *, loop: Loop | None = None, tell_close: Told | None = None) -> Session:
+    """Open the page of a scan; see `Session` for the parameters.
 
     Returns
     -------
-    Page
+    Session
         Its `address` opens it in a browser of this machine; `close` ends it.
 
     Raises
@@ -31,43 +28,43 @@ def open_page(
     InputError
         If the loop is none of the scan's, or the page cannot be guarded.
     """
-    page = Page(path, scan, commands, loop, tell_close)
+    session = Session(path, scan, loop, tell_close)
     try:
-        _build(page)
+        _build(session)
     except BaseException:
-        page.close()
+        session.close()
         raise
-    return page
+    return session
 
 
-def _build(page: Page) -> None:
-    gui = page.server.gui
+def _build(session: Session) -> None:
+    gui = session.server.gui
     click = gui.add_dropdown("A click", (SHOW,), hint="What a click on the cloud does; dragging turns it all the same.")
     tabs = gui.add_tab_group()
     with tabs.add_tab("Cloud"):
-        add_cloud(page)
+        add_cloud(session)
     with tabs.add_tab("Neighbourhoods"):
-        around = NeighbourhoodStep(page)
+        around = NeighbourhoodStep(session)
     with tabs.add_tab("Boundary"):
-        boundary = BoundaryStep(page)
+        boundary = BoundaryStep(session)
     with tabs.add_tab("UV"):
-        UVStep(page, around.controls)
+        UVStep(session, around.controls)
     with tabs.add_tab("Mesh"):
-        MeshStep(page)
+        MeshStep(session)
     with tabs.add_tab("Surface"):
-        SurfaceStep(page)
+        SurfaceStep(session)
     clicks: dict[str, Click] = {SHOW: around.pick, **boundary.clicks}
     click.options = tuple(clicks)
-    _listen(page, lambda: click.value, clicks)
-    page.loop_changed()
+    _listen(session, lambda: click.value, clicks)
+    session.loop_changed()
 
 
-def _listen(page: Page, chosen: Callable[[], str], clicks: dict[str, Click]) -> None:
-    @page.server.scene.on_click()
+def _listen(session: Session, chosen: Callable[[], str], clicks: dict[str, Click]) -> None:
+    @session.server.scene.on_click()
     def _(event: viser.SceneClickEvent) -> None:
-        if not page.shows_cloud:
+        if not session.views.has_cloud:
             return
-        with page.reporting("click"):
-            row = page.drawing.pointed_at(event)
+        with session.reporting("click"):
+            row = session.drawing.pointed_at(event)
             if row is not None:
                 clicks[chosen()](row, event)

@@ -1,7 +1,6 @@
 """What the page shows in space: the cloud, a neighbourhood, loops, parameters, mesh and surface."""
 
 import asyncio
-import time
 from collections.abc import Callable
 from functools import partial
 from threading import RLock
@@ -13,24 +12,26 @@ from ..look.paint import STONE
 from ..points.neighbors import nearest
 from ..points.stars import normals
 from ..typing import UV, Floats, Indices, Loop, Points, Triangles
+from .followers import MIDDLE, Followers
 from .frame import Frame, coarser, shades, spacing, stance, thinned
-from .frame_rate import Pace
 from .one_neighborhood import Around
+from .painter import SPACING, Painter
 from .picking import Camera, nearest_to_ray
-from .window_fit import DISTANCE, SAME, Whole, whole_distance
+from .window_fit import DISTANCE, whole_distance
 
-MOST_POINTS, MOST_TRIANGLES = 300_000, 400_000
+MOST_POINTS, MOST_TRIANGLES = 300_000, 400_000  # drawn: a choice, for browsers that have no graphics card to draw with
 MOST_EDGED = 100_000  # triangles; the edges of more make one dark plane
 FEW_POINTS, FEW_TRIANGLES = 20_000, 20_000  # while the camera moves, where a browser is slow
 FAR = 4000.0  # beyond what cameras draw, but not beyond what is under the pointer
 NEAREST = 12  # points whose plane tells how a point is lit
-SPACING = 0.5  # diameter of a drawn point over the spacing of those drawn
 
+# Of the loop, other loops, links from strong to weak, edges; the first and the last as in pictures.
 LOOP, OTHER, LINK, PALE, EDGE = (200, 85, 61), (226, 160, 60), (24, 78, 119), (190, 214, 230), (34, 48, 60)
 FINE, COARSE = "fine", "coarse"  # levels of detail
+# What can be shown: in space, and in the plane of the parameters, which is looked at from above.
 IN_SPACE = ("cloud", "mesh", "surface")
 GROUPS = (*IN_SPACE, "plane", "flat")
-MIDDLE, UPWARDS = (0.0, 0.0, 0.0), (0.0, 0.0, 1.0)  # what the camera looks at, and what is up
+UPWARDS = 0.0, 0.0, 1.0  # in the scene; the scan is turned to stand so
 
 
 class Drawing:
@@ -45,7 +46,6 @@ class Drawing:
 
     def __init__(self, server: viser.ViserServer, points: Points) -> None:
         self._server, self._scene, self._scan = server, server.scene, points
-        self._light_up()
         self.frame = Frame(points)
         self.places = self.frame.places(points)
         self.drawn = thinned(len(points), MOST_POINTS)
@@ -53,6 +53,8 @@ class Drawing:
         some = self.places[self.drawn].astype(np.float64)
         around = nearest(some, NEAREST)
         self.spacing = spacing(some, around)
+        self._paint = Painter(self._scene, self.spacing)
+        self._paint.light_up()
         self._normals = normals(some, around).astype(np.float32)
         self._colors: Floats | None = None
         self._size, self._wider = 1.0, float(np.sqrt(len(self.drawn) / len(self._few)))
@@ -61,19 +63,10 @@ class Drawing:
         self._fine, self._coarse = (
             [self._scene.add_frame(f"/{name}/{level}", show_axes=False) for name in GROUPS] for level in (FINE, COARSE)
         )
-        self._slow: set[tuple[int, str]] = set()  # browsers whose cameras move and what they draw slowly
         self.show("cloud")
         self.coarsen(False)
-        server.on_client_connect(self._follow)
+        server.on_client_connect(Followers(GROUPS, lambda: self._shown, self.coarsen).follow)
         self.stand(None)
-
-    def _light_up(self) -> None:
-        """Light meshes from the front; what viser has for it is twenty times as slow without a graphics card."""
-        self._scene.configure_default_lights(enabled=False, cast_shadow=False)
-        self._scene.configure_environment_map(None)
-        self._scene.add_light_ambient("/light/all", intensity=1.1)
-        for name, place, intensity in (("front", (-3.0, -5.0, 4.0), 2.2), ("back", (3.0, 5.0, -1.0), 1.2)):
-            self._scene.add_light_directional(f"/light/{name}", position=place, intensity=intensity)
 
     def stand(self, up: str | None) -> None:
         """Turn an axis of the file upwards, or the one that is chosen by default, and look at the scan anew."""
@@ -147,30 +140,6 @@ class Drawing:
         for name, group in self._groups.items():
             group.visible = name == shown
 
-    async def _follow(self, client: viser.ClientHandle) -> None:
-        """Keep pace with the camera of a browser, and the whole scan in its picture until somebody comes nearer."""
-        whole, paces = Whole(), {name: Pace(self._pace_teller(client.client_id, name)) for name in GROUPS}
-
-        async def moved(camera: viser.CameraHandle) -> None:
-            if camera.image_width * camera.image_height == 0:
-                return
-            away = float(np.linalg.norm(camera.position))
-            distance = whole.corrected(away, camera.aspect, time.monotonic())
-            if distance is not None and np.allclose(camera.look_at, MIDDLE, atol=SAME):
-                camera.position, camera.look_at = tuple(camera.position * distance / away), MIDDLE
-            # With less to draw all browsers are fast: only the one for which it is drawn is told from that.
-            if not self._slow or (client.client_id, self._shown) in self._slow:
-                await paces[self._shown].moved()
-
-        client.camera.on_update(moved)
-
-    def _pace_teller(self, client: int, group: str) -> Callable[[bool], None]:
-        def tell(is_slow: bool) -> None:
-            (self._slow.add if is_slow else self._slow.discard)((client, group))
-            self.coarsen(bool(self._slow))
-
-        return tell
-
     def coarsen(self, is_coarse: bool) -> None:
         """Draw less of what there is, in all browsers, or all of it again."""
         with self._server.atomic():
@@ -194,13 +163,13 @@ class Drawing:
 
     def draw_loop(self, loop: Loop, others: Indices) -> None:
         """Draw the loop as it is now, and the points of other loops that were found."""
-        self._clear("/cloud/loop", "/cloud/corners", "/cloud/others")
+        self._paint.clear("/cloud/loop", "/cloud/corners", "/cloud/others")
         place = self.places[loop]
         if len(loop) > 1:
-            self._lines("/cloud/loop", np.stack([place, np.roll(place, -1, axis=0)], axis=1), LOOP, 3.0)
+            self._paint.lines("/cloud/loop", np.stack([place, np.roll(place, -1, axis=0)], axis=1), LOOP, 3.0)
         for name, rows, color in (("corners", place, LOOP), ("others", self.places[others], OTHER)):
             if len(rows):
-                self._points(f"/cloud/{name}", rows, np.array(color) / 255.0, larger=1.4)
+                self._paint.points(f"/cloud/{name}", rows, np.array(color) / 255.0, larger=1.4)
 
     def draw_around(self, around: Around, radius: float | None) -> None:
         """Draw the neighbours of a point, its links to them, darker the more they weigh, and the ball."""
@@ -218,40 +187,40 @@ class Drawing:
             thickness_units="screen",
         )
         size = float(np.linalg.norm(place - centre, axis=1).min()) / (SPACING * self.spacing)
-        self._points("/cloud/around/neighbors", place, colors / 255.0, larger=0.5 * size)
-        self._points("/cloud/around/centre", centre[None], np.array(LOOP) / 255.0, larger=0.6 * size)
+        self._paint.points("/cloud/around/neighbors", place, colors / 255.0, larger=0.5 * size)
+        self._paint.points("/cloud/around/centre", centre[None], np.array(LOOP) / 255.0, larger=0.6 * size)
         if around.is_star:
             sides = np.stack([place, np.roll(place, -1, axis=0)], axis=1)
-            self._lines("/cloud/around/star", sides[:-1] if around.is_open else sides, LINK, 1.5)
+            self._paint.lines("/cloud/around/star", sides[:-1] if around.is_open else sides, LINK, 1.5)
         if radius is not None:
-            self._ball("/cloud/around/ball", centre, radius * self.frame.scale, LINK, opacity=0.15)
+            self._paint.ball("/cloud/around/ball", centre, radius * self.frame.scale, LINK, opacity=0.15)
 
     def clear_around(self) -> None:
         """Draw no neighbours."""
-        self._clear("/cloud/around")
+        self._paint.clear("/cloud/around")
 
     def draw_polygon(self, corners: Floats) -> None:
         """Draw the polygon that selects points, given its corners in space, (k, 3)."""
-        self._lines("/cloud/polygon", np.stack([corners, np.roll(corners, -1, axis=0)], axis=1), LINK, 2.0)
+        self._paint.lines("/cloud/polygon", np.stack([corners, np.roll(corners, -1, axis=0)], axis=1), LINK, 2.0)
 
     def clear_polygon(self) -> None:
         """Draw no polygon."""
-        self._clear("/cloud/polygon")
+        self._paint.clear("/cloud/polygon")
 
     def draw_selected(self, rows: Indices) -> None:
         """Draw the points that are selected."""
-        self._clear("/cloud/selected")
+        self._paint.clear("/cloud/selected")
         if len(rows):
-            self._points("/cloud/selected", self.places[rows], np.array(LINK) / 255.0, larger=1.8)
+            self._paint.points("/cloud/selected", self.places[rows], np.array(LINK) / 255.0, larger=1.8)
 
     def draw_plane(self, uv: UV, loop: Loop) -> None:
         """Draw the parameters of the points, and the boundary in the plane."""
-        self._clear("/plane/loop")
+        self._paint.clear("/plane/loop")
         flat = self.frame.plane(uv)
         self._levels("plane", flat[self.drawn], self._light[:, None] * STONE, larger=0.8)
         if len(loop) > 1:
             place = flat[loop]
-            self._lines("/plane/loop", np.stack([place, np.roll(place, -1, axis=0)], axis=1), LOOP, 2.0)
+            self._paint.lines("/plane/loop", np.stack([place, np.roll(place, -1, axis=0)], axis=1), LOOP, 2.0)
 
     def draw_mesh(self, points: Points, triangles: Triangles, uv: UV) -> None:
         """Draw a mesh in space and in the plane."""
@@ -265,29 +234,9 @@ class Drawing:
     def _levels(self, group: str, places: Floats, colors: Floats, *, larger: float) -> list[viser.PointCloudHandle]:
         few = self._few
         return [
-            self._points(f"/{group}/{FINE}/points", places, colors, larger=larger),
-            self._points(f"/{group}/{COARSE}/points", places[few], colors[few], larger=self._wider * larger),
+            self._paint.points(f"/{group}/{FINE}/points", places, colors, larger=larger),
+            self._paint.points(f"/{group}/{COARSE}/points", places[few], colors[few], larger=self._wider * larger),
         ]
-
-    def _points(self, name: str, places: Floats, colors: Floats, *, larger: float = 1.0) -> viser.PointCloudHandle:
-        return self._scene.add_point_cloud(
-            name,
-            places,
-            np.asarray(255.0 * colors, dtype=np.uint8),
-            point_size=SPACING * larger * self.spacing,
-            point_shape="circle",
-            point_shading="flat",
-            precision="float32",
-        )
-
-    def _lines(self, name: str, ends: Floats, color: tuple[int, int, int], pixels: float) -> None:
-        self._scene.add_line_segments(name, ends, color, thickness=pixels, thickness_units="screen")
-
-    def _ball(
-        self, name: str, place: Floats, radius: float, color: tuple[int, int, int], opacity: float | None = None
-    ) -> None:
-        at = float(place[0]), float(place[1]), float(place[2])
-        self._scene.add_icosphere(name, radius, color, position=at, opacity=opacity, cast_shadow=False)
 
     def _mesh(self, group: str, places: Floats, triangles: Triangles, *, has_edges: bool = True) -> None:
         add = partial(self._scene.add_mesh_simple, side="double", cast_shadow=False, receive_shadow=False)
@@ -295,10 +244,6 @@ class Drawing:
         few = coarser(*fine, FEW_TRIANGLES)
         add(f"/{group}/{FINE}/faces", *fine, color=STONE)
         add(f"/{group}/{COARSE}/faces", *few, color=STONE)
-        self._clear(f"/{group}/{FINE}/edges")
+        self._paint.clear(f"/{group}/{FINE}/edges")
         if has_edges and len(triangles) <= MOST_EDGED:
             add(f"/{group}/{FINE}/edges", *fine, color=EDGE, wireframe=True, opacity=0.35)
-
-    def _clear(self, *names: str) -> None:
-        for name in names:
-            self._scene.remove_by_name(name)

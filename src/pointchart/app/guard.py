@@ -19,9 +19,11 @@ from websockets.http11 import Request, Response
 
 from ..errors import InputError
 
-HOST = "127.0.0.1"
-ENTRY_SECONDS = 60.0
+HOST = "127.0.0.1"  # loopback: no other machine gets through
+ENTRY_SECONDS = 60.0  # for a browser to start in; after that, the word that it was started with opens nothing
+# Says what to do, and nothing of what was wrong with the request.
 REFUSED = "this page opens only by the address that pointchart printed in the terminal, which carries a token"
+# Headers by which the address, and so the token, stays in this browser: no page is told it, none may frame this one.
 KEPT_IN = {
     "Referrer-Policy": "no-referrer",
     "X-Content-Type-Options": "nosniff",

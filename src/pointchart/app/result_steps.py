@@ -7,32 +7,39 @@ import numpy as np
 
 from ..cad import CAD_SUFFIXES, read_surface_json, write_cad
 from ..io import MESH_SUFFIXES, UV_SUFFIXES, Scan, read_scan, write_mesh, write_uv
+from ..runs.fit_run import FitRun
+from ..runs.mesh_run import MeshRun
+from ..runs.param_run import ParamRun
 from ..surface import tessellate
 from ..typing import UV
 from .controls import Controls
 from .html import said_html
-from .session import Page
+from .session import Session
 from .step import Step, add_export
+from .step_files import StepFiles
 
+# In the folder of the page, in formats that keep every digit: what is exported is made of them.
 UV_FILE, MESH_FILE, SURFACE_FILE = "uv-found.ply", "mesh-made.ply", "surface-fitted.json"
-SURFACE_SUFFIXES = (*CAD_SUFFIXES, ".json", *MESH_SUFFIXES)
-DRAWN, TESSELLATED = 40_000, 100_000  # points of the mesh of a surface: on the page, and in a file
-DOMAIN = (("--domain", "Domain"), ("--corners", "Corners"), ("--spacing", "Spacing"))
-MESH = (("--holes", "Gaps"), *DOMAIN, ("--uv", "Parameters"), ("--swap", "Edge swaps"))
+SURFACE_SUFFIXES = (*CAD_SUFFIXES, ".json", *MESH_SUFFIXES)  # the surface itself first, then triangles of it
+DRAWN, TESSELLATED = 40_000, 100_000  # points of the mesh of a surface: on the session, and in a file
+# The options that have controls, with their labels, in the order of the page.
+DOMAIN = (("domain", "Domain"), ("corners", "Corners"), ("spacing", "Spacing"))
+MESH = (("holes", "Gaps"), *DOMAIN, ("uv", "Parameters"), ("swap", "Edge swaps"))
 SURFACE = (
-    ("--tolerance", "Tolerance"),
-    ("--outliers", "Outliers"),
-    ("--unit", "Unit"),
-    ("--degree", "Degree"),
-    ("--max-control-points", "Control points"),
-    ("--fairness", "Fairness"),
-    ("--robust", "Robust"),
-    ("--domain", "Domain"),
-    ("--corners", "Corners"),
-    ("--holes", "Gaps"),
-    ("--best-effort", "Best effort"),
+    ("tolerance", "Tolerance"),
+    ("outliers", "Outliers"),
+    ("unit", "Unit"),
+    ("degree", "Degree"),
+    ("max_control_points", "Control points"),
+    ("fairness", "Fairness"),
+    ("robust", "Robust"),
+    ("domain", "Domain"),
+    ("corners", "Corners"),
+    ("holes", "Gaps"),
+    ("best_effort", "Best effort"),
 )
 
+# Said in advance, as the command has no option that chooses a part.
 ONE_PART = "UV takes a scan in one part; where there are several, use Mesh with the component largest, or cut the scan."
 
 
@@ -41,31 +48,25 @@ class UVStep:
 
     Parameters
     ----------
-    page : Page
+    session : Session
     neighbourhoods : Controls
         Of that step.
     """
 
-    def __init__(self, page: Page, neighbourhoods: Controls) -> None:
-        self._page = page
-        page.server.gui.add_html(said_html([ONE_PART]))
+    def __init__(self, session: Session, neighbourhoods: Controls) -> None:
+        self._session = session
+        session.server.gui.add_html(said_html([ONE_PART]))
+        files = StepFiles(UV_FILE, "uv.csv")
         self._step = Step(
-            page,
-            "param",
-            "Map to the plane",
-            DOMAIN,
-            also=neighbourhoods,
-            works_on=UV_FILE,
-            out="uv.csv",
-            take=self._take,
+            session, ParamRun, "Map to the plane", DOMAIN, files=files, take=self._take, also=neighbourhoods
         )
-        self._step.exported_as(add_export(page, "Export the parameters", "uv", UV_SUFFIXES, self._write))
+        self._step.exported_as(add_export(session, "Export the parameters", "uv", UV_SUFFIXES, self._write))
 
     def _take(self) -> None:
-        uv = _uv(read_scan(self._page.folder / UV_FILE))
-        page = self._page
-        page.drawing.draw_plane(uv, page.hand.loop)
-        page.add_view("parameters (uv)", lambda: page.drawing.show("plane"))
+        uv = _uv(read_scan(self._session.folder / UV_FILE))
+        session = self._session
+        session.drawing.draw_plane(uv, session.hand.loop)
+        session.views.add("parameters (uv)", lambda: session.drawing.show("plane"))
 
     def _write(self, path: Path) -> None:
         read = read_scan(self._step.made("parameters", "map to the plane"))
@@ -77,19 +78,20 @@ class MeshStep:
 
     Parameters
     ----------
-    page : Page
+    session : Session
     """
 
-    def __init__(self, page: Page) -> None:
-        self._page = page
-        self._step = Step(page, "mesh", "Make the mesh", MESH, works_on=MESH_FILE, out="mesh.ply", take=self._take)
-        self._step.exported_as(add_export(page, "Export the mesh", "mesh", MESH_SUFFIXES, self._write))
+    def __init__(self, session: Session) -> None:
+        self._session = session
+        files = StepFiles(MESH_FILE, "mesh.ply")
+        self._step = Step(session, MeshRun, "Make the mesh", MESH, files=files, take=self._take)
+        self._step.exported_as(add_export(session, "Export the mesh", "mesh", MESH_SUFFIXES, self._write))
 
     def _take(self) -> None:
-        page, read = self._page, read_scan(self._page.folder / MESH_FILE)
-        page.drawing.draw_mesh(read.points, read.triangles, _uv(read))
-        page.add_view("mesh in the plane", lambda: page.drawing.show("flat"), is_next=False)
-        page.add_view("mesh", lambda: page.drawing.show("mesh"))
+        session, read = self._session, read_scan(self._session.folder / MESH_FILE)
+        session.drawing.draw_mesh(read.points, read.triangles, _uv(read))
+        session.views.add("mesh in the plane", lambda: session.drawing.show("flat"), is_next=False)
+        session.views.add("mesh", lambda: session.drawing.show("mesh"))
 
     def _write(self, path: Path) -> None:
         made = self._step.made("mesh", "make it")
@@ -100,7 +102,7 @@ class MeshStep:
         left_out = ("u", "v") if path.suffix == ".npz" else ("u", "v", "stretch")
         notes = write_mesh(path, read.points, read.triangles, uv=_uv(read), attributes=_without(read, *left_out))
         for note in notes:
-            self._page.notify("mesh", note, color="gray")
+            self._session.notify("mesh", note, color="gray")
 
 
 class SurfaceStep:
@@ -108,22 +110,21 @@ class SurfaceStep:
 
     Parameters
     ----------
-    page : Page
+    session : Session
     """
 
-    def __init__(self, page: Page) -> None:
-        self._page = page
-        self._step = Step(
-            page, "fit", "Fit the surface", SURFACE, works_on=SURFACE_FILE, out="surface.step", take=self._take
-        )
-        self._step.exported_as(add_export(page, "Export the surface", "surface", SURFACE_SUFFIXES, self._write))
+    def __init__(self, session: Session) -> None:
+        self._session = session
+        files = StepFiles(SURFACE_FILE, "surface.step")
+        self._step = Step(session, FitRun, "Fit the surface", SURFACE, files=files, take=self._take)
+        self._step.exported_as(add_export(session, "Export the surface", "surface", SURFACE_SUFFIXES, self._write))
 
     def _take(self) -> None:
-        page = self._page
-        surface, loops, _ = read_surface_json(page.folder / SURFACE_FILE)
+        session = self._session
+        surface, loops, _ = read_surface_json(session.folder / SURFACE_FILE)
         points, triangles, _ = tessellate(surface, loops, DRAWN)
-        page.drawing.draw_surface(points, triangles)
-        page.add_view("surface", lambda: page.drawing.show("surface"))
+        session.drawing.draw_surface(points, triangles)
+        session.views.add("surface", lambda: session.drawing.show("surface"))
 
     def _write(self, path: Path) -> None:
         made = self._step.made("surface", "fit it")

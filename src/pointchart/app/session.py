@@ -1,4 +1,4 @@
-"""The page: its scan, its loop, one job at a time, and what every step shares."""
+"""A page that is open: its scan, its loop, one run at a time, and what every step shares."""
 
 import logging
 import os
@@ -6,7 +6,7 @@ import secrets
 import shutil
 import tempfile
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from threading import RLock
@@ -14,30 +14,35 @@ from typing import Any
 
 import viser
 
-from ..errors import InputError, PointchartError
+from ..errors import PointchartError
 from ..io import Scan, write_loop
+from ..report.record import RunReport
+from ..runs.command_line import command_line
+from ..runs.commands import Run
+from ..runs.options import changed, options_of, record_of
+from ..runs.process import Cancelled
 from ..typing import Loop
-from .command import Commands, shell_line
 from .drawing import Drawing
 from .guard import address, start_server, stop_server
-from .job import Cancelled
 from .loop_by_hand import LoopByHand
 from .runner import Runner
+from .scan_file import ScanFile
+from .step_files import StepFiles
+from .views import Views
 
-LOG = logging.getLogger(__name__)
-BRAND = (38, 99, 140)
+LOG = logging.getLogger(__name__)  # for errors that are ours: the page says that there was one, the terminal which
+BRAND = (38, 99, 140)  # of buttons: dark enough for white words on it
 WIDTH = 460  # pixels of the panel
-CLOUDS = "cloud", "boundary scores"  # what shows points that can be clicked
-LOOP_FILE = "loop.txt"
-OUT = 3  # where the words of a run name its file
+LOOP_FILE = "loop.txt"  # the user's own loop, as the commands on the page name it
 RUN = "run"  # folder of the files of a run, which are taken out of it when it has ended well
 LAST = 0.2  # seconds in which the last words reach the browser
 
 Told = Callable[[Callable[[], None]], object]
-Made = tuple[list[str], bytes]  # the words of a run, and the user's own loop if it takes one
+Made = tuple[Run, bytes]  # a run, and the user's own loop if it takes one
+Values = Mapping[str, Any]  # of options, by their names
 
 
-class Page:
+class Session:
     """A page that is open, with one scan.
 
     Parameters
@@ -46,7 +51,6 @@ class Page:
         The file, as the user named it.
     scan : Scan
         What it holds.
-    commands : Commands
     loop : (b,) int array, optional
         The user's own boundary to begin with.
     tell_close : callable, optional
@@ -55,20 +59,18 @@ class Page:
     Attributes
     ----------
     runner : Runner
-        Runs its commands.
+        Executes its runs.
     edits : RLock
-        Held by whatever changes the loop, or reads it to run a command.
+        Held by whatever changes the loop, or reads it for a run.
     """
 
-    def __init__(
-        self, path: Path, scan: Scan, commands: Commands, loop: Loop | None = None, tell_close: Told | None = None
-    ) -> None:
-        self.path, self.scan, self.commands = path, scan, commands
+    def __init__(self, path: Path, scan: Scan, loop: Loop | None = None, tell_close: Told | None = None) -> None:
+        self.path, self.scan = path, scan
         self.hand = LoopByHand(len(scan.points), loop)
-        self._seen = _stamp(path)
+        self._file = ScanFile(path)
         self._token, self._entry = secrets.token_urlsafe(32), secrets.token_urlsafe(32)
         self.edits = RLock()
-        self.where: Callable[[], list[str]] = list  # words that say what the boundary is, of a step that is built later
+        self.where: Callable[[], Values] = dict  # options that say what the boundary is, of a step that is built later
         self.on_loop: list[Callable[[], None]] = []
         self._ending = ExitStack()
         self.folder = Path(tempfile.mkdtemp(prefix="pointchart-"))
@@ -96,7 +98,7 @@ class Page:
         return address(self.server, self._entry)
 
     def close(self) -> None:
-        """End the job that runs, say so, end the server, and remove the files between steps."""
+        """End the run that goes on, say so, end the server, and remove the files between steps."""
         self._ending.close()
 
     def _say_ended(self) -> None:
@@ -111,33 +113,7 @@ class Page:
         gui.main_panel.set_width(WIDTH)
         gui.set_panel_label(f"pointchart · {Path(*self.path.absolute().parts[-2:])}")
         self.runner = Runner(gui)
-        self.shown: Any = gui.add_dropdown("Show", CLOUDS[:1], hint="What is drawn; each step that has run adds to it.")
-        self._groups: dict[str, Callable[[], None]] = {CLOUDS[0]: lambda: self.drawing.show("cloud")}
-        self._showing = RLock()  # held while something else comes to be shown, which may take a while
-        self.shown.on_update(lambda _: self._show())
-
-    @property
-    def shows_cloud(self) -> bool:
-        """Whether the cloud is shown, so that a click can mean a point of it."""
-        return self.shown.value in CLOUDS
-
-    def add_view(self, name: str, show: Callable[[], None], *, is_next: bool = True) -> None:
-        """Add something to show, and show it."""
-        self._groups[name] = show
-        self.shown.options = tuple(self._groups)
-        if is_next:
-            self.look_at(name)
-
-    def look_at(self, name: str) -> None:
-        """Show one of the things that there are, anew if it is shown already."""
-        if self.shown.value == name:
-            self._show()
-        else:
-            self.shown.value = name
-
-    def _show(self) -> None:
-        with self._showing:
-            self._groups[self.shown.value]()
+        self.views = Views(gui, lambda: self.drawing.show("cloud"))
 
     def loop_changed(self) -> None:
         """Draw the loop again, and write the command lines again."""
@@ -145,82 +121,73 @@ class Page:
             for tell in self.on_loop:
                 tell()
 
-    def words(self, command: str, out: str, own: Sequence[str]) -> list[str]:
-        """Return the words of a command on this scan, which name the boundary as it is now."""
-        words = [command, str(self.path), "-o", out]
-        takes_loop = self.commands.option(command, "--boundary") is not None
-        if takes_loop and self.hand.is_own:
-            words += ["--boundary", LOOP_FILE]
-        given = self.where()
-        for flag, word in zip(given[::2], given[1::2], strict=True):
-            is_moot = flag in own or (flag == "--outer" and takes_loop and self.hand.is_own)
-            if self.commands.option(command, flag) is not None and not is_moot:
-                words += [flag, word]
-        return words + list(own)
+    def run_of(self, record: type[Run], out: str, own: Values) -> Run:
+        """Return a run on this scan: its boundary is named as it is now, other options are its own."""
+        known = _names(record)
+        has_loop = "boundary" in known and self.hand.is_own
+        values = {name: value for name, value in self.where().items() if name in known}
+        if has_loop:
+            values.pop("outer", None)
+            values["boundary"] = Path(LOOP_FILE)
+        return record_of(record, {"scan": self.path, "out": Path(out), **values, **own})
 
-    def line(self, command: str, out: str, own: Sequence[str]) -> str:
+    def line(self, record: type[Run], out: str, own: Values) -> str:
         """Return the command line that a step amounts to."""
-        return shell_line(["pointchart", *self.words(command, out, own)])
+        return command_line(self.run_of(record, out, own))
 
-    def now(self, command: str, own: Sequence[str]) -> Made:
+    def now(self, record: type[Run], own: Values) -> Made:
         """Return what a run would be made by now."""
         with self.edits:
-            words = self.words(command, "", own)
-            return words, self.hand.loop.tobytes() if "--boundary" in words else b""
+            is_by_hand = self.hand.is_own and "boundary" in _names(record)
+            return self.run_of(record, "", own), self.hand.loop.tobytes() if is_by_hand else b""
 
     @contextmanager
     def running(
-        self,
-        command: str,
-        out: str,
-        own: Sequence[str],
-        *,
-        keep: Callable[[Made], object],
-        beside: Sequence[tuple[str, str]] = (),
-    ) -> Iterator[list[str]]:
-        """Run a command on this scan into the folder between steps; no other runs before the body has ended.
+        self, record: type[Run], files: StepFiles, own: Values, *, keep: Callable[[Made], object]
+    ) -> Iterator[RunReport]:
+        """Execute a run on this scan into the folder between steps; no other is executed before the body has ended.
 
         Parameters
         ----------
-        command, out, own
-            As for `words`.
+        record : type
+            Of the run.
+        files : StepFiles
+        own : mapping
+            See `run_of`.
         keep : callable
             Called with what the files are made by when they take the place of those of the run before, which is only if
             the run has ended well.
-        beside : sequence of (flag, name)
-            Files that are written as well.
 
         Yields
         ------
-        What it said.
+        RunReport
 
         Raises
         ------
         PointchartError
-            With the sentence of the command line.
+            That of the run.
         Cancelled
         """
-        names, folder = [out, *(name for _, name in beside)], self.folder / RUN
+        folder = self.folder / RUN
         with self.runner.alone():
-            self._check_unchanged()
+            self._file.check_unchanged()
             folder.mkdir(exist_ok=True)
             try:
                 with self.edits:
-                    made_by = self.now(command, own)
+                    made_by = self.now(record, own)
                     if self.hand.is_own:
                         write_loop(folder / LOOP_FILE, self.hand.loop)
-                aside = [word for flag, name in beside for word in (flag, str(folder / name))]
-                words = [*made_by[0][:OUT], str(folder / out), *made_by[0][OUT + 1 :], *aside]
-                if words[OUT + 1 : OUT + 3] == ["--boundary", LOOP_FILE]:
-                    words[OUT + 2] = str(folder / LOOP_FILE)
-                lines = self.runner.run(words)
+                beside = {name: Path(file) for name, file in files.beside}
+                run = changed(made_by[0], scan=self.path.absolute(), out=Path(files.written), **beside)
+                report = self.runner.execute(run, folder)
                 with self.edits:
-                    for name in names:
-                        (folder / name).replace(self.folder / name)
+                    (folder / files.written).replace(self.folder / files.works_on)
+                    for _, file in files.beside:
+                        (folder / file).replace(self.folder / file)
                     keep(made_by)
             finally:
                 shutil.rmtree(folder, ignore_errors=True)
-            yield [self.plain(line) for line in lines]
+            yield report
 
     def plain(self, text: str) -> str:
         """Leave the folder between steps out of a text: its files have the names that the user gives them."""
@@ -274,15 +241,6 @@ class Page:
             show_logo=False, show_share_button=False, brand_color=BRAND, control_width="large", dark_mode=is_dark
         )
 
-    def _check_unchanged(self) -> None:
-        try:
-            is_same = _stamp(self.path) == self._seen
-        except OSError:
-            is_same = False
-        if not is_same:
-            raise InputError(f"{self.path} has changed since this page was opened; start pointchart view again")
 
-
-def _stamp(path: Path) -> tuple[int, int]:
-    seen = path.stat()
-    return seen.st_mtime_ns, seen.st_size
+def _names(record: Any) -> set[str]:
+    return {option.name for option in options_of(record)}

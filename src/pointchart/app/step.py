@@ -1,104 +1,115 @@
-"""A step of the pipeline on the page: its controls, its command line, a button to run it, what it said."""
+"""A step of the pipeline on the page: its controls, its command line, a button to run it, what it came to."""
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import viser
 
 from ..errors import InputError
+from ..report.record import RunReport
+from ..runs.commands import Run
 from .controls import Controls
-from .html import OTHERWISE, command_html, dimmed_html, outdated_html, refused_html, said_html, shortened
-from .session import Made, Page
+from .html import OTHERWISE, command_html, dimmed_html, outdated_html, refused_html, report_html
+from .session import Made, Session
+from .step_files import StepFiles
 
 
 class Step:
-    """A command with its controls, in the tab that is open.
+    """A run with its controls, in the tab that is open.
 
     Parameters
     ----------
-    page : Page
-    command : str
-        As `mesh`.
+    session : Session
+    record : type
+        Of the run.
     title : str
         Of its button.
-    labels : sequence of (flag, label)
+    labels : sequence of (name, label)
         The options that have controls.
-    works_on : str
-        The file that a run writes into the folder between steps.
-    out : str
-        The file that the command line names.
+    files : StepFiles
     take : callable
         Called when a run has ended well.
     also : Controls, optional
-        Of another step, whose words are given as well.
-    beside : sequence of (flag, name)
-        Files that the run writes as well, for the page to draw.
+        Of another step, whose values are given as well.
     """
 
     def __init__(
         self,
-        page: Page,
-        command: str,
+        session: Session,
+        record: type[Run],
         title: str,
         labels: Sequence[tuple[str, str]],
         *,
-        works_on: str,
-        out: str,
+        files: StepFiles,
         take: Callable[[], object],
         also: Controls | None = None,
-        beside: Sequence[tuple[str, str]] = (),
     ) -> None:
-        self._page, self._command, self._works_on, self._out = page, command, works_on, out
-        self._take, self._also, self._beside = take, also, beside
+        self._session, self._record, self._files, self._take, self._also = session, record, files, take, also
         self._made_by: Made | None = None
-        self._told: list[str] = []
-        self._refused: tuple[Made, str] | None = None  # what was asked for, and why there is none
-        self.controls = Controls(page, command, labels)
-        button = page.server.gui.add_button(title, color="blue", icon=viser.Icon.PLAYER_PLAY)
+        self._report: RunReport | None = None
+        self._refused: tuple[Made | None, str] | None = None  # what was asked for, and why there is none
+        gui = session.server.gui
+        self.controls = Controls(gui, record, labels)
+        button = gui.add_button(title, color="blue", icon=viser.Icon.PLAYER_PLAY)
         button.on_click(lambda _: self.run())
-        self._line = page.server.gui.add_html("")
-        self._said = page.server.gui.add_html("")
+        self._line = gui.add_html("")
+        self._said = gui.add_html("")
         self.controls.on_change(self.refresh)
-        page.on_loop.append(self.refresh)
+        session.on_loop.append(self.refresh)
 
     @property
-    def words(self) -> list[str]:
-        """The options given."""
-        return [*(self._also.words if self._also else []), *self.controls.words]
+    def values(self) -> dict[str, Any]:
+        """The options given, by their names.
+
+        Raises
+        ------
+        InputError
+            If a word is no value of its option.
+        """
+        return (self._also.values if self._also else {}) | self.controls.values
 
     def exported_as(self, suffix: Any) -> None:
         """Name a file of the format chosen on the command line."""
 
         def rename() -> None:
-            self._out = str(Path(self._out).with_suffix(suffix.value))
+            self._files = replace(self._files, out=str(Path(self._files.out).with_suffix(suffix.value)))
             self.refresh()
 
-        suffix.value = Path(self._out).suffix
+        suffix.value = Path(self._files.out).suffix
         suffix.on_update(lambda _: rename())
 
     def refresh(self) -> None:
-        """Write the command line again, and mark what was said if other words or another loop stand now."""
-        with self._page.edits:
-            self._line.content = command_html(self._page.line(self._command, self._out, self.words))
+        """Write the command line again, and mark what was said if other options or another loop stand now."""
+        with self._session.edits:
+            try:
+                self._line.content = command_html(self._session.line(self._record, self._files.out, self.values))
+            except InputError as reason:
+                self._line.content = refused_html(str(reason))
             self._show_said()
 
     def run(self) -> None:
-        """Run the command, and show what it said or why it stopped; a result before stays where there is no other."""
-        words = self.words
-        asked = self._page.now(self._command, words)
+        """Execute the run, and show what it came to or why it stopped; a result stays where there is no other."""
+        session, asked = self._session, self._now()
         with (
-            self._page.reporting(self._command, lambda sentence: self._refuse(asked, sentence)),
-            self._page.running(self._command, self._works_on, words, keep=self._keep, beside=self._beside) as lines,
+            session.reporting(self._record.command, lambda sentence: self._refuse(asked, sentence)),
+            session.running(self._record, self._files, self.values, keep=self._keep) as report,
         ):
-            told = [line.replace(self._works_on, self._out) for line in lines if not line.startswith("pointchart: ")]
-            with self._page.edits:
-                self._told = shortened(told)
+            with session.edits:
+                self._report = report
             self._take()
             self.refresh()
 
     def _keep(self, made_by: Made) -> None:
-        self._made_by, self._told, self._refused = made_by, [], None
+        self._made_by, self._report, self._refused = made_by, None, None
+
+    def _now(self) -> Made | None:
+        """Return what a run would be made by now, None while a word is no value of its option."""
+        try:
+            return self._session.now(self._record, self.values)
+        except InputError:
+            return None
 
     def made(self, what: str, remedy: str) -> Path:
         """Return the file of the last run.
@@ -106,42 +117,44 @@ class Step:
         Raises
         ------
         InputError
-            If there is none, or other words or another loop stand now than those that made it.
+            If there is none, or other options or another loop stand now than those that made it.
         """
         if self._made_by is None:
             raise InputError(f"there is no {what} yet; {remedy} first")
-        if self._made_by != self._page.now(self._command, self.words):
+        if self._made_by != self._now():
             raise InputError(f"this {what} {OTHERWISE}; {remedy} again first")
-        return self._page.folder / self._works_on
+        return self._session.folder / self._files.works_on
 
-    def _refuse(self, asked: Made, sentence: str) -> None:
-        with self._page.edits:
-            self._refused = asked, sentence.replace(self._works_on, self._out)
+    def _refuse(self, asked: Made | None, sentence: str) -> None:
+        with self._session.edits:
+            self._refused = asked, sentence
             self._show_said()
 
     def _show_said(self) -> None:
-        now = self._page.now(self._command, self.words)
-        content = ""
+        now, content = self._now(), ""
         if self._refused is not None:
             asked, sentence = self._refused
             content = refused_html(sentence) if asked == now else dimmed_html(refused_html(sentence))
         if self._made_by is not None:
-            content += said_html(self._told) if self._made_by == now else outdated_html(self._told)
+            said = "" if self._report is None else report_html(self._report, self._files.out)
+            content += said if self._made_by == now else outdated_html(said)
         self._said.content = content
 
 
-def add_export(page: Page, title: str, stem: str, suffixes: Sequence[str], write: Callable[[Path], object]) -> Any:
+def add_export(
+    session: Session, title: str, stem: str, suffixes: Sequence[str], write: Callable[[Path], object]
+) -> Any:
     """Add a choice of formats and a button that sends the file; return the choice.
 
     `write` is called with the path of a file in the folder between steps, and raises where nothing has been run yet.
     """
-    gui = page.server.gui
+    gui = session.server.gui
     suffix = gui.add_dropdown("Format", tuple(suffixes))
     button = gui.add_button(title, icon=viser.Icon.DOWNLOAD)
 
     @button.on_click
     def _(event: viser.GuiEvent[Any]) -> None:
-        with page.reporting(title):
-            page.send(event, f"{stem}{suffix.value}", write)
+        with session.reporting(title):
+            session.send(event, f"{stem}{suffix.value}", write)
 
     return suffix

@@ -10,7 +10,7 @@ from ..solve.systems import solve_fixed
 from ..typing import Floats, Indices, Loop, Points
 from .steps import perimeter
 
-PLANES = 12
+PLANES = 12  # in steps of 15 degrees: a choice, as the paper has its user place the plane
 
 
 def order_by_halves(points: ArrayLike, members: ArrayLike, *, normal: ArrayLike | None = None, k: int = 8) -> Loop:
@@ -62,6 +62,7 @@ def order_by_halves(points: ArrayLike, members: ArrayLike, *, normal: ArrayLike 
         return _order_by_plane(cloud, chosen, centred @ check_place(normal, "normal of the plane"), k)
     first, second = np.linalg.svd(centred, full_matrices=False)[2][:2]
     loops, failures = list[Loop](), list[InputError]()
+    # Half a turn is enough: a plane and its other side are the same.
     for angle in np.arange(PLANES) * np.pi / PLANES:
         try:
             loops.append(_order_by_plane(cloud, chosen, centred @ (np.cos(angle) * first + np.sin(angle) * second), k))

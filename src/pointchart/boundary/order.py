@@ -6,7 +6,7 @@ from ..errors import InputError
 from ..points.neighbors import search
 from ..typing import Loop, Points
 
-NEARBY_STEPS = 16
+NEARBY_STEPS = 16  # that each is compared with: some eight along the loop, as many on a part that runs beside it
 CROSSING = 0.3  # true boundaries of real scans stay above 0.59, runs in the wrong direction fall below 0.16
 
 
@@ -48,6 +48,7 @@ def check_order(points: Points, loop: Loop) -> None:
     )
     length = np.linalg.norm(points[b] - points[a], axis=1)
     ratio = apart / (length[:, None] + length[other])
+    # A step and the next share a point, so exchanging them would undo the loop; first and last are such, too.
     ratio[(np.abs(other - place[:, None]) % (len(loop) - 1)) <= 1] = np.inf
     worst = np.unravel_index(np.argmin(ratio), ratio.shape)
     if ratio[worst] < CROSSING:

@@ -20,10 +20,11 @@ from .surface_checks import check_loops, check_surface
 from .trims import Edge, straight_edges, trim_edges
 from .units import MILLIMETRES, check_unit
 
+# By both suffixes in use, in the order in which messages name them.
 _WRITERS = {".step": write_step, ".stp": write_step, ".iges": write_iges, ".igs": write_iges, ".brep": write_brep}
 _READERS = {".step": read_step, ".stp": read_step, ".iges": read_iges, ".igs": read_iges, ".brep": read_brep}
 CAD_SUFFIXES = tuple(_WRITERS)
-_UNWRITTEN = "Open CASCADE cannot write it; free the disk or choose another output"
+_UNWRITTEN = "Open CASCADE cannot write it; free the disk or choose another output"  # it gives no reason of its own
 
 
 def write_cad(

@@ -17,7 +17,7 @@ from .surface_checks import is_inside
 from .trims import Edge
 
 DEVIATION = 1e-6  # of the size, and of the area of the domain
-_GRID = 32
+_GRID = 32  # places in each direction: a choice, since what a format gets wrong, its digits, is wrong everywhere
 
 
 def is_valid(face: Any) -> bool:

@@ -6,8 +6,8 @@ from scipy.interpolate import BSpline, make_interp_spline
 from ..surface import BSplineSurface, evaluate
 from ..typing import Floats, Points
 
-_CHECKS = np.array([0.2, 0.5, 0.8])
-_ROUNDS = 16
+_CHECKS = np.array([0.2, 0.5, 0.8])  # of a span: where it is halved, and beside, as the error may vanish in the middle
+_ROUNDS = 16  # of halving: to a span in 65,000, where a kink is no more to be seen
 
 
 def lift(surface: BSplineSurface, curve: BSpline, tolerance: float) -> tuple[BSpline, float]:

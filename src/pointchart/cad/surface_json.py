@@ -14,8 +14,8 @@ from ..typing import UV, Floats
 from .surface_checks import check_loops, check_surface
 from .units import check_unit
 
-FORMAT, VERSION = "pointchart surface", 1
-_MEMBERS = ("degree", "knots_u", "knots_v", "control", "loops", "unit")
+FORMAT, VERSION = "pointchart surface", 1  # by which a file says what it is; the number changes when a member does
+_MEMBERS = ("degree", "knots_u", "knots_v", "control", "loops", "unit")  # that have to be there besides those two
 
 
 def write_surface_json(path: AnyPath, surface: BSplineSurface, loops: Sequence[UV], *, unit: str = "mm") -> None:

@@ -2,6 +2,7 @@
 
 from ..errors import InputError
 
+# All exact: the inch is 25.4 mm by definition. Those that STEP and IGES name both.
 MILLIMETRES = {"um": 0.001, "mm": 1.0, "cm": 10.0, "m": 1000.0, "in": 25.4, "ft": 304.8}
 
 

@@ -1,11 +1,14 @@
-"""The command line: read, call, write; a command imports what it needs when it runs, so that help comes at once."""
+"""The command line: words to a run, and what came of it to words; a run imports what it needs when it is executed."""
 
 import sys
 from typing import Annotated
 
 import typer
 
-from . import boundary, check, demo, figure, fit, mesh, param, view
+from ..runs.commands import RECORDS
+from ..runs.view_run import ViewRun
+from .commands import SectionedCommand, command_of, execute
+from .view import open_view
 
 app = typer.Typer(
     help="From a point cloud of one surface patch to planar parameters, a certified disc mesh and a CAD surface.",
@@ -34,14 +37,9 @@ def common(
     """Take the options that stand before a command."""
 
 
-app.command()(mesh.mesh)
-app.command()(param.param)
-app.command()(boundary.boundary)
-app.command()(fit.fit)
-app.command()(figure.figure)
-app.command()(check.check)
-app.command()(view.view)
-app.command()(demo.demo)
+for record in RECORDS.values():
+    run = open_view if record is ViewRun else execute
+    app.command(record.command, cls=SectionedCommand)(command_of(record, run))
 
 
 def main() -> None:

@@ -1,42 +1,41 @@
 """Word of the stages on stderr while a run goes on."""
 
-import os
 import sys
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
+from typing import Any
 
-from ..clock import STAGES, StageClock
-
-# Usual share of the whole time that is over when a stage begins; each loop that is tried begins them again.
-OVER_BY = {
-    "prepare": 0,
-    "neighbours": 4,
-    "boundary": 31,
-    "assemble": 44,
-    "map": 45,
-    "triangulate": 47,
-    "recover": 48,
-    "swap": 49,
-    "relocate": 52,
-    "parameters": 55,
-    "certify": 90,
-    "fit": 95,
-    "page": 95,
-}
+from ..clock import StageClock
+from ..runs.usual_shares import share_over
 
 
 @contextmanager
 def staged(quiet: bool) -> Iterator[StageClock]:
-    """Give a clock that shows stages as they begin: a bar with an estimate on a terminal, nothing if quiet or piped.
+    """Give a clock that shows stages as they begin: a bar with an estimate on a terminal, nothing if quiet or piped."""
+    with ExitStack() as shown:
+        yield StageClock(None if quiet else _Word(shown).tell)
 
-    A program that runs pointchart and sets POINTCHART_STAGES reads `stage NAME PERCENT` lines instead of the bar.
-    """
-    if not quiet:
-        _warn_of_first_run()
-    if quiet or not sys.stderr.isatty():
-        yield StageClock(_tell if STAGES in os.environ and not quiet else None)
-        return
+
+class _Word:
+    """Tells nothing before the first stage begins: what is wrong with the options is said before that."""
+
+    def __init__(self, shown: ExitStack) -> None:
+        self._shown, self._has_begun = shown, False
+        self._bar: Any = None
+
+    def tell(self, stage: str) -> None:
+        """Show that a stage begins."""
+        if not self._has_begun:
+            self._has_begun = True
+            _warn_of_first_run()
+            self._bar = _bar(self._shown) if sys.stderr.isatty() else None
+        if self._bar is not None:
+            task = self._bar.tasks[0]
+            self._bar.update(task.id, description=stage, completed=max(share_over(stage), task.completed))
+
+
+def _bar(shown: ExitStack) -> Any:
     from rich.console import Console
     from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 
@@ -48,17 +47,9 @@ def staged(quiet: bool) -> Iterator[StageClock]:
         TextColumn("left about"),
         TimeRemainingColumn(),
     )
-    with Progress(*columns, console=Console(stderr=True), transient=True) as progress:
-        task = progress.add_task("reading", total=100)
-
-        def show(name: str) -> None:
-            progress.update(task, description=name, completed=max(OVER_BY.get(name, 0), progress.tasks[task].completed))
-
-        yield StageClock(show)
-
-
-def _tell(name: str) -> None:
-    print(f"stage {name} {OVER_BY.get(name, 0)}", file=sys.stderr, flush=True)
+    bar = shown.enter_context(Progress(*columns, console=Console(stderr=True), transient=True))
+    bar.add_task("reading", total=100)
+    return bar
 
 
 def _warn_of_first_run() -> None:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..boundary import Candidate, perimeter
-from ..errors import SolveError
+from ..errors import Remedy, SolveError
 from ..typing import Floats, Indices, Loop, Points, Triangles
 from .bridges import Bridge, BridgedPatch
 
@@ -133,8 +133,13 @@ def refuse_second_boundary(found: BoundaryAndGaps) -> list[BridgedPatch]:
         f"the surface has a second boundary, so it is no disc: besides the loop of {len(found.loop)} points, "
         f"{found.length:.4g} long, through point {{here}} at {place_of(found.points, found.loop[0])}, there is one of "
         f"{len(second)} points, {length:.4g} long, through point {{there}} at "
-        f"{place_of(found.points, second[0])}; bridge it (--holes bridge), leave it open (--holes open), say which "
-        "is the outer one (--outer x,y,z), or give the boundary (--boundary)",
+        f"{place_of(found.points, second[0])}",
+        remedies=(
+            Remedy.bridge_gaps,
+            Remedy.leave_gaps_open,
+            Remedy.name_the_outer_loop,
+            Remedy.give_the_boundary,
+        ),
         here=found.loop[0],
         there=second[0],
     )
@@ -179,14 +184,15 @@ def check_torn(found: BoundaryAndGaps, bridges: Sequence[Bridge], disputed: Indi
         or (bridge.rim_in_spacings >= TORN_SPACINGS and bridge.rim_length >= MESSY_SHARE * length)
     ]
     least = SECOND_BOUNDARY * length if is_given else 0.0
-    remedy = "cut the scan there" if is_given else "cut the scan there, or give the boundary"
+    remedies = (Remedy.cut_the_scan,) if is_given else (Remedy.cut_the_scan, Remedy.give_the_boundary)
     for bridge in torn:
         if bridge.rim_length >= least:
             raise SolveError(
                 f"the surface is no disc: {len(bridge.points)} points round point {{there}} at "
                 f"{place_of(found.points, bridge.points[0])} are joined by edges of over four spacings, "
                 f"{bridge.rim_in_spacings:.0f} spacings round, although the scan has no gap there, as on a handle, "
-                f"a twist, a part so long that its map collapses, or with a false boundary; {remedy}",
+                f"a twist, a part so long that its map collapses, or with a false boundary",
+                remedies=remedies,
                 there=bridge.points[0],
             )
 

@@ -15,8 +15,8 @@ from .scan import Scan, fan_triangles, scan_from_columns
 from .source import AnyPath, check_readable
 from .text import column_names
 
-_PREFIX = "attributes/"
-_NUMBERS = "fiub"
+_PREFIX = "attributes/"  # so that an attribute may be called points, too
+_NUMBERS = "fiub"  # kinds of numpy's types: no complex numbers, dates, texts or objects
 
 
 def read_npy(path: AnyPath) -> Scan:

@@ -11,7 +11,7 @@ from ..typing import UV, Indices, Points, Triangles
 from .scan import Scan, fan_triangles, scan_from_columns
 from .source import AnyPath, read_bytes
 
-_COLOURS = ("red", "green", "blue", "alpha")
+_COLOURS = ("red", "green", "blue", "alpha")  # in the order of glTF; other formats call them so
 
 
 def read_glb(path: AnyPath) -> Scan:

@@ -12,8 +12,11 @@ from ..errors import FormatError
 from .scan import Scan, scan_from_columns
 from .source import AnyPath, check_readable
 
+# Bytes of the headers of a file up to LAS 1.2 and of 1.4 (ASPRS, LAS specification); formats of points from 64 on are
+# compressed, as LASzip sets the highest bit of numbers that are small.
 _LAS_HEADER, _LAS_1_4_HEADER, _COMPRESSED = 227, 375, 64
-_RECORD_HEADER, _LATE_RECORD_HEADER = 54, 60
+_RECORD_HEADER, _LATE_RECORD_HEADER = 54, 60  # bytes before a record of variable length, and one behind the points
+# The names of ASTM E2807, which E57 files use, to those of other formats.
 _E57_NAMES = {"cartesianX": "x", "cartesianY": "y", "cartesianZ": "z", "intensity": "intensity"}
 _E57_NAMES |= {f"color{colour.capitalize()}": colour for colour in ("red", "green", "blue")}
 
@@ -71,6 +74,7 @@ def _check_las_header(path: AnyPath) -> None:
         size = file.seek(0, 2)
     if head[:4] != b"LASF" or len(head) < _LAS_HEADER:
         raise FormatError(f"{path}: the {size} bytes do not begin with a LAS header; give it the suffix of its format")
+    # One after the other from byte 94 on: the point count of 32 bits gives way to one of 64 in LAS 1.4.
     header_size, start, n_records, form, length, n_points = unpack_from("<HIIBHI", head, 94)
     end_of_records = header_size + n_records * _RECORD_HEADER
     if head[25] >= 4 and len(head) == _LAS_1_4_HEADER:
@@ -92,7 +96,7 @@ def _check_laz_chunks(path: AnyPath, start: int, size: int) -> None:
     with open(path, "rb") as file:
         file.seek(start)
         (table,) = unpack("<q", file.read(8).ljust(8, b"\0"))
-        if table == -1:
+        if table == -1:  # written to where one could not go back: then its place stands at the end
             file.seek(size - 8)
             (table,) = unpack("<q", file.read(8))
         file.seek(min(max(table, 0), size))

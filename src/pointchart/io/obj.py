@@ -14,6 +14,7 @@ from .scan import Scan, fan_triangles, scan_from_columns
 from .source import AnyPath, read_lines
 from .table import as_integers, parse_rows, write_rows
 
+# By how many numbers stand behind a v: w is of the format, colours are not, but many programs write them.
 _COLUMNS = {
     3: ("x", "y", "z"),
     4: ("x", "y", "z", "w"),

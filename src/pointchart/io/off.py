@@ -16,8 +16,8 @@ from .source import AnyPath, read_lines
 from .table import as_integers, is_index, parse_rows, write_rows
 from .text import column_names
 
-_KEYWORD = re.compile(r"(C?N?|NC)OFF\b")
-_COLOURS, _NORMALS = ("red", "green", "blue", "alpha"), ("nx", "ny", "nz")
+_KEYWORD = re.compile(r"(C?N?|NC)OFF\b")  # colours and normals, whose letters come in either order
+_COLOURS, _NORMALS = ("red", "green", "blue", "alpha"), ("nx", "ny", "nz")  # names that PLY gives the same columns
 _Numbered = tuple[list[str], list[int]]
 
 

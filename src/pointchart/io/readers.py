@@ -15,6 +15,7 @@ from .source import AnyPath
 from .stl import read_stl
 from .text import read_text
 
+# In the order in which a message names them.
 _READERS: dict[str, Callable[[AnyPath], Scan]] = {
     ".ply": read_ply,
     ".obj": read_obj,
@@ -32,7 +33,7 @@ _READERS: dict[str, Callable[[AnyPath], Scan]] = {
     ".laz": read_las,
     ".e57": read_e57,
 }
-READABLE_SUFFIXES = tuple(_READERS)
+READABLE_SUFFIXES = tuple(_READERS)  # in lower case, as suffixes are compared
 
 
 def read_scan(path: AnyPath) -> Scan:

@@ -8,7 +8,7 @@ from ..errors import FormatError
 
 AnyPath: TypeAlias = str | os.PathLike[str]
 
-_UTF16_MARKS = (b"\xff\xfe", b"\xfe\xff")
+_UTF16_MARKS = (b"\xff\xfe", b"\xfe\xff")  # byte order marks: half of the bytes of such text are zero, all the same
 
 
 def check_readable(path: AnyPath) -> None:

@@ -15,13 +15,14 @@ from .scan import Scan
 from .source import AnyPath, decode, read_bytes, split_lines
 from .table import parse_rows
 
-_HEADER = 84
-_FACET = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
+_HEADER = 84  # bytes: 80 of any text, then the number of facets
+_FACET = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])  # 50 bytes, without gaps
 
 
 def read_stl(path: AnyPath) -> Scan:
     """Read binary or text STL; points come in the order in which they first appear."""
     data = read_bytes(path)
+    # Binary files may begin with "solid" too, but hold a zero before long: text never does.
     is_text = data.lstrip()[:5].lower() == b"solid" and b"\0" not in data[:1024]
     corners = _text_corners(path, data) if is_text else _binary_corners(path, data)
     first, kind = distinct_rows(corners)

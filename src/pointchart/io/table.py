@@ -10,7 +10,7 @@ from ..errors import FormatError
 from ..typing import Floats
 from .source import AnyPath
 
-_BLOCK = 1 << 17
+_BLOCK = 1 << 17  # rows at a time, whose numbers and text take tens of bytes each as Python's objects
 
 
 def parse_rows(

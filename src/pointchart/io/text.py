@@ -14,7 +14,8 @@ from .scan import Scan, scan_from_columns
 from .source import AnyPath, read_lines
 from .table import is_index, is_number, parse_rows
 
-_COMMENT = re.compile(r"(#|//)[^\n]*")
+_COMMENT = re.compile(r"(#|//)[^\n]*")  # programs mark comments and column names by one or the other
+# A number whose comma is a decimal one: where all fields between blanks are such, no comma separates them.
 _DECIMAL_COMMA = re.compile(r"[+-]?\d*(,\d+)?([eE][+-]?\d+)?")
 
 

@@ -274,6 +274,7 @@ def _digits_lost(kind: str, points: Points) -> list[str]:
     ]
 
 
+# In the order in which messages name them.
 _MESH_WRITERS: dict[str, _MeshWriter] = {
     ".ply": _mesh_ply,
     ".obj": _mesh_obj,
@@ -282,6 +283,7 @@ _MESH_WRITERS: dict[str, _MeshWriter] = {
     ".glb": _mesh_glb,
     ".npz": _mesh_npz,
 }
+# The same for parameters without a mesh.
 _UV_WRITERS: dict[str, _UVWriter] = {
     ".csv": _uv_text,
     ".txt": _uv_text,
@@ -290,5 +292,6 @@ _UV_WRITERS: dict[str, _UVWriter] = {
     ".npz": _uv_npz,
     ".ply": _uv_ply,
 }
+# In lower case, as suffixes are compared.
 MESH_SUFFIXES = tuple(_MESH_WRITERS)
 UV_SUFFIXES = tuple(_UV_WRITERS)

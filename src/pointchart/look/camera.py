@@ -9,7 +9,7 @@ from ..mesh.connectivity import half_edges
 from ..mesh.quality import area_vectors
 from ..typing import Floats, Points, Triangles
 
-AXES = {"x": 0, "y": 1, "z": 2}
+AXES = {"x": 0, "y": 1, "z": 2}  # of the file, that may be upwards; in the order in which they are offered
 ASIDE, ABOVE = -10.0, 25.0  # degrees out of the view along the mean normal, so that relief shows
 FACING = 0.8  # cosine to the line of sight from which on an axis cannot be upwards in the figure
 CLOSING = 0.35  # share of the area of a mesh that its boundary spans, below which it stands like a bust or a foot

@@ -8,8 +8,10 @@ from ..errors import InputError
 from ..typing import Floats, Indices
 from .paint import ACCENT, FAINT, INK, STEEL, STONE
 
-LITTLE_TO_MUCH = [FAINT, STEEL, INK]
-# Cold and warm by turns of hue alike in brightness, so that neither sign stands out, and paper where there is nothing.
+LITTLE_TO_MUCH = [FAINT, STEEL, INK]  # from light to dark, so that a print in gray tells as much
+# The same for a screen, where it is shaded besides: through more hues, which are told apart in the shade, too.
+PALE_TO_DARK = ["#f6ead2", "#c9d6a3", "#61a5a9", "#2a6f97", "#1d3557"]
+# Blue below and red above, in tones that grow as dark on both sides: seen in gray, large stays large.
 BELOW_AND_ABOVE = ["#12344f", "#2a6f97", "#8fbcd4", "#f4efe4", "#eba98f", ACCENT, "#7a2416"]
 OUTERMOST = 1.0  # per cent of the values at either end that a scale from little to much leaves out: outliers
 LARGE_RATIO = 30.0  # of the ends of a scale, from which on it is logarithmic, as small values would be one colour

@@ -10,7 +10,7 @@ from ..mesh.quality import unit_normals
 from ..typing import UV, Floats, Mask, Points, Triangles
 from .raster import Box
 
-# The palette of the project, of pictures, figures, pages and the site: warm paper, cold ink, one accent.
+# Ground, thin lines, what is shown, text, and what stands out: of pictures, figures, pages and the site.
 PAPER, FAINT, STEEL, INK, ACCENT = "#fbfaf7", "#ccd6d8", "#3a8fb7", "#22303c", "#c8553d"
 # Of a surface without a meaning of its colour, outside and inside: unlike in tone, as bright as plaster.
 STONE, INSIDE = np.array([0.83, 0.77, 0.68]), np.array([0.78, 0.49, 0.40])
@@ -22,7 +22,7 @@ BEHIND = 0.6  # brightness of what turns its back to us over that of what faces 
 SHAPED, COLORED, STRIPED = 0.4, 0.62, 0.8
 
 MOST_SHAPES = 20_000  # points or triangles of a drawing; more become an image in it, so that files stay small
-# The metadata of each format that would say when a file was written: without it the same picture has the same bytes.
+# What makes a file the same on each run: by itself, matplotlib writes when it was made.
 UNDATED: dict[str, dict[str, None]] = {".png": {}, ".svg": {"Date": None}, ".pdf": {"CreationDate": None}}
 PICTURE_SUFFIXES = tuple(UNDATED)
 # Ids that are the same twice, text that can be searched, and fonts as outlines that journals take (TrueType).

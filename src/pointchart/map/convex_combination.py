@@ -156,6 +156,7 @@ def cut_points(neighborhoods: Neighborhoods, loop: Loop) -> Indices:
     is_inner[loop] = False
     kept = np.repeat(is_inner, neighborhoods.sizes)
     rows, columns = neighborhoods.rows[kept], neighborhoods.indices[kept]
+    # All boundary points lead to one root: who hangs on that alone hangs on no single point.
     rows = np.concatenate([rows, loop])
     columns = np.concatenate([columns, np.full(len(loop), root)])
     graph = sp.csr_array((np.ones(len(rows), np.int8), (rows, columns)), shape=(n + 1, n + 1))
@@ -176,7 +177,7 @@ def _convex_matrix(weights: ArrayLike, neighborhoods: Neighborhoods, loop: Loop)
             f"the weights have shape {values.shape}; the neighbourhoods have {len(neighborhoods.indices)} entries"
         )
     sums = np.bincount(neighborhoods.rows, values, n)
-    sums[loop] = 1.0
+    sums[loop] = 1.0  # rows of boundary points are not used, so they may hold anything
     is_inner = np.ones(n, bool)
     is_inner[loop] = False
     negative = np.flatnonzero(~(values > 0.0) & is_inner[neighborhoods.rows])

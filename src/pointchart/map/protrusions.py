@@ -112,6 +112,7 @@ def openings(
     if np.isnan(stretch).all():
         return
     stretch = _carried_on(stretch, points, loop, neighborhoods)
+    # Relative to that of the row's own point, so that no exponential runs over; the sum of the row takes it away.
     growth = stretch[neighborhoods.indices] - stretch[neighborhoods.rows]
     for power in POWERS:
         opened = fixed(normalize(first * np.exp(-power * growth), neighborhoods))

@@ -11,7 +11,7 @@ from ..points.morton import morton_order
 from ..typing import UV, Indices, Loop, Triangles
 from .connectivity import half_edges
 
-GOLDEN_RATIO = 0.6180339887498949
+GOLDEN_RATIO = 0.6180339887498949  # its multiples, less whole numbers, are spread evenly however many there are
 
 
 def triangulate(uv: ArrayLike, loop: ArrayLike) -> Triangles:
@@ -119,7 +119,7 @@ def _delaunay(uv: UV) -> Triangles:
         )
     order = morton_order(uv)
     engine = startinpy.DT()
-    engine.snap_tolerance = 1e-300
+    engine.snap_tolerance = 1e-300  # by default points closer than 1e-3 are taken for one
     engine.insert(np.column_stack([uv[order], np.zeros(len(uv))]))
     return np.asarray(order[engine.triangles.astype(np.int64) - 1])
 

@@ -76,6 +76,19 @@ def vertex_normals(points: Points, triangles: Triangles) -> Points:
     return np.asarray(total / np.where(length > 0.0, length, 1.0))
 
 
+def heights(points: Points, triangles: Triangles, offsets: Floats) -> Floats:
+    """Measure offsets from the points, (n, 3), along the normals of the mesh there, (n,), positive on their side.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> flat = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0]])
+    >>> heights(flat, np.array([[0, 1, 2]]), np.array([[5.0, 5, 2], [0, 0, -1], [1, 0, 0]]))
+    array([ 2., -1.,  0.])
+    """
+    return np.asarray(np.einsum("ij,ij->i", offsets, vertex_normals(points, triangles)))
+
+
 def areas(points: Points, triangles: Triangles) -> Floats:
     """Measure the area of each triangle, (m,), in the unit of the points squared.
 

@@ -15,7 +15,7 @@ from ..typing import Indices, Mask, Points, Triangles
 from .connectivity import start_draft
 
 LEAST_GAIN = 1e-9  # of the mean energy of a triangle: smaller ones are rounding, and might move points for ever
-TRIES = 30  # per point of the mesh, in all
+TRIES = 30  # per point of the mesh, in all: a cap that no scan of the evaluation has reached
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -4,14 +4,14 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .._kernels.solve.graphs import join_parts
-from ..errors import InputError
+from ..errors import InputError, Remedy
 from ..typing import Floats, Indices, Points
 from .cloud import prepare
 from .neighbors import Neighborhoods, nearest
 from .neighbors import spacing as local_spacing
 from .surroundings import NEAREST
 
-APART = 10.0  # spacings
+APART = 10.0  # spacings: at 5 no scan of the evaluation falls apart yet
 
 
 def label_parts(points: Points, around: Neighborhoods, spacing: Floats) -> Indices:
@@ -46,7 +46,8 @@ def check_one_piece(points: Points, around: Neighborhoods, spacing: Floats) -> N
         shown = " and ".join(str(size) for size in sizes[:4]) + (" ..." if len(sizes) > 4 else "")
         raise InputError(
             f"the points fall into {len(sizes)} separate parts, of {shown} points (some of them: {{seeds}}), but a "
-            "patch is in one piece; take the largest (--component largest of mesh and boundary), or them one by one",
+            "patch is in one piece",
+            remedies=(Remedy.take_the_largest_part, Remedy.take_one_part),
             seeds=np.unique(labels, return_index=True)[1],
         )
 

@@ -14,8 +14,8 @@ from .neighbors import BoxTree, Neighborhoods
 
 STEEPEST = 0.8  # sine of the steepest neighbour against the tangent plane; steeper ones lie on another sheet
 FADING = 0.8  # the farthest neighbours have 4% of the weight of the nearest in a plane: they may lie on another sheet
-TIE_BREAK = 1e-2
-WIDER = 4
+TIE_BREAK = 1e-2  # spacings, a choice: over the rounding of grids in files, under what changes stars that have no ties
+WIDER = 4  # times the candidates, for stars that reach beyond them: so a circle has twice the radius
 
 
 def break_ties(points: ArrayLike, spacing: Floats) -> Points:

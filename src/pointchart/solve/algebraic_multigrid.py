@@ -20,10 +20,10 @@ from ..errors import SolveError
 from ..typing import Floats, Indices, Mask
 from .hierarchy import Hierarchy, Singles, coarsened
 
-TOLERANCE = 1e-12
+TOLERANCE = 1e-12  # relative residual, some digits over rounding
 SLACK = 10.0  # of the true residual over the tolerance: that of the iteration drifts from it
 ROUNDS = 2  # of iterations, each from the true residual of the one before
-MOST_ITERATIONS = 200  # of a round
+MOST_ITERATIONS = 200  # of a round, a cap: five real scans take 4 to 10 to 1e-6 and 8 to 21 to 1e-12
 
 
 def multigrid(

@@ -23,8 +23,8 @@ from .._parallel import over_ranges
 from ..errors import SolveError
 from ..typing import Floats, Indices
 
-COARSEST = 200  # unknowns that are solved for directly
-LARGEST = 3000  # the same, where coarsening comes to an end before, as on many parts
+COARSEST = 200  # unknowns that are solved for directly: their inverse, dense, has no more entries than a small level
+LARGEST = 3000  # the same, where coarsening comes to an end before, as on many parts: an inverse of 72 MB
 
 Singles: TypeAlias = NDArray[np.float32]
 

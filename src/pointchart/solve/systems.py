@@ -15,12 +15,13 @@ from ..errors import SolveError, points_called
 from ..typing import Floats, Indices
 from .algebraic_multigrid import TOLERANCE, multigrid
 
-MOST_ITERATIONS = 20_000
+MOST_ITERATIONS = 20_000  # of plain Krylov methods: they end somewhere, and say so
+# Unknowns: a choice, as factors take time of the power 1.5 (Lipton, Rose and Tarjan 1979) and multigrid of the power 1.
 DIRECT_LIMIT = 1_000_000
 # Relative: more than any tolerance that is asked for, less than that of no solution at all.
 WORST_RESIDUAL = 0.1
 ONE_THREAD = Lock()  # the limit on threads holds for the whole process, so solves take turns
-SMALL = 100
+SMALL = 100  # unknowns that need no order of elimination: their factors are small in any
 ROUNDING = 1e-14  # relative residual over which a direct solution is refined
 
 Solved: TypeAlias = tuple[Floats, tuple[int, ...]]

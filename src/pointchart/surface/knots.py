@@ -8,7 +8,7 @@ from ..errors import InputError, name_some
 from ..typing import UV, Floats, Indices, Mask
 
 MARGIN = 0.02  # of the shorter extent of uv, by which the domain is larger, so that feet find room outside
-FIRST_SPANS = 4  # in the shorter direction
+FIRST_SPANS = 4  # in the shorter direction: 49 control points for degree 3
 MOST_ASPECT = 64.0  # of the spans, for parameters in a narrow strip
 FLAT = 1e-24  # of the larger variance of uv: less is rounding
 SHARES = (0.8, 0.4, 0.2, 0.1)  # of the points out of tolerance, whose spans are halved: less where there is no room

@@ -19,13 +19,13 @@ from ..proof.intersections import box_tree
 from ..solve.systems import ONE_THREAD
 from ..typing import UV, Floats, Indices, Points
 
-NEARBY = 48
+NEARBY = 48  # points of a spline: eight times the six that a quadratic needs; a choice, as 30 to 100 work well
 OVERLAP = 1.5  # radius of a disc over half the diagonal of its cell
-LARGEST_SMOOTHING = 10.0
-BLOCK = 64  # discs whose matrices are held at once
+LARGEST_SMOOTHING = 10.0  # spacings: discs have 3 times their square for points then, 300, and systems that are full
+BLOCK = 64  # discs whose matrices are held at once: some megabytes
 FLATTEST = 1e-13  # least over largest eigenvalue of the quadratics' normal matrix
 LARGEST_MISS = 1e-8  # of the extent of the points of a disc
-ORDERS = ((0, 0), (1, 0), (0, 1), (2, 0), (1, 1), (0, 2))
+ORDERS = ((0, 0), (1, 0), (0, 1), (2, 0), (1, 1), (0, 2))  # in the order of a jet of the kernels
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -160,6 +160,7 @@ def _cover(tree: cKDTree, uv: UV, k: int) -> Floats:
     while len(middle):
         radius = OVERLAP * np.linalg.norm(half, axis=1)
         reach = search(tree, middle, k)[0][:, -1] if k < len(uv) else np.full(len(middle), np.inf)
+        # Then the k nearest of its middle are all points of the disc, and a spline through them knows it whole.
         is_small = radius <= reach
         kept.append(np.column_stack([middle, radius])[is_small])
         middle, half = _halve(middle[~is_small], half[~is_small])
@@ -235,6 +236,7 @@ def _solve_block(near: Floats, centres: Floats, multiple: float) -> tuple[Floats
     count, k, _ = centres.shape
     matrix, right = np.zeros((count, k + 6, k + 6)), np.zeros((count, k + 6, 3))
     difference = centres[:, :, None] - centres[:, None]
+    # Minus r^5 is positive on what quadratics leave (Wendland 2005, chapter 8), so the multiple adds to it.
     matrix[:, :k, :k] = multiple * np.eye(k) - np.einsum("...x,...x", difference, difference) ** 2.5
     matrix[:, :k, k:] = _quadratics(centres)
     matrix[:, k:, :k] = matrix[:, :k, k:].swapaxes(1, 2)

@@ -10,7 +10,7 @@ from ..chart.free_boundary import uv_free_boundary
 from ..chart.low_stretch import uv_low_stretch
 from ..chart.rule import Chart
 from ..clock import StageClock
-from ..errors import InputError, SolveError
+from ..errors import InputError, Remedy, SolveError
 from ..gaps.bridges import BridgedPatch
 from ..gaps.rules import BoundaryAndGaps, GapRule, leave_gaps_open, refuse_second_boundary
 from ..mesh.connectivity import boundary_loops, half_edges
@@ -155,18 +155,19 @@ def check_met(surfaced: SurfacedScan, tolerance: float, outliers: float) -> None
     if surfaced.fit.is_met:
         return
     off, n_control = surfaced.deviation, surfaced.fit.surface.n_control
-    remedy = "allow more control points or a larger tolerance"
+    remedies: tuple[Remedy, ...] = (Remedy.allow_control_points, Remedy.allow_deviation, Remedy.take_the_best)
+    noise = ""
     if surfaced.fit.is_noise:
-        noise = min(level.held_out for level in surfaced.fit.levels)
-        remedy = (
-            f"finer knots would follow noise, or what no point shows: points left out of the fit stay {noise:.3g} away "
-            f"(RMS); take a tolerance of about {max(3.0 * noise, 1.1 * off.largest(outliers)):.2g}"
+        held_out = min(level.held_out for level in surfaced.fit.levels)
+        remedies = (Remedy.allow_deviation, Remedy.take_the_best)
+        noise = (
+            f"; finer knots would follow noise, or what no point shows: points left out of the fit stay {held_out:.3g} "
+            f"away (RMS), which allows a tolerance of about {max(3.0 * held_out, 1.1 * off.largest(outliers)):.2g}"
         )
     raise SolveError(
         f"the surface of {n_control} control points deviates by {off.largest(outliers):.4g} but for "
-        f"{100 * outliers:g} % of the points (RMS {off.rms:.4g}), more than the tolerance of {tolerance:.4g}; "
-        f"{remedy}, or take the best "
-        "that there is"
+        f"{100 * outliers:g} % of the points (RMS {off.rms:.4g}), more than the tolerance of {tolerance:.4g}{noise}",
+        remedies=remedies,
     )
 
 

@@ -136,7 +136,7 @@ def _cut(polygon: UV, pieces: Indices) -> UV:
 def _staggered(polygons: list[UV], spacing: float) -> UV:
     """Fill what an odd number of loops is around with an equilateral grid that keeps clear of all of them."""
     starts = np.concatenate(polygons)
-    rise = np.sqrt(0.75) * spacing
+    rise = np.sqrt(0.75) * spacing  # the height of an equilateral triangle
     low = starts.min(axis=0)
     side, row = _rows_crossed((starts[:, 1] - low[1]) / rise, (_ends(polygons)[:, 1] - low[1]) / rise)
     (x, y), (dx, dy) = starts[side].T, (_ends(polygons) - starts)[side].T

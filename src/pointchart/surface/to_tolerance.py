@@ -20,8 +20,8 @@ WORTH = 0.95  # of the RMS: a correction that brings less is the last
 STEPS, LAST_STEPS = 2, 20  # of Newton's method in each correction, and at the end
 HELD_OUT = 10  # one point in ten is held out, to choose the fairness and to know noise from shape
 SHARE = 16  # points a control point that are enough for a level but the last
-LEAST_SAMPLE = 20_000
-FAIRNESS = (1e-1, 1e-3, 1e-5, 1e-7, 1e-9)
+LEAST_SAMPLE = 20_000  # points of a level, so that coarse ones, of few control points, still see all of the surface
+FAIRNESS = (1e-1, 1e-3, 1e-5, 1e-7, 1e-9)  # that are tried: by tens instead they bring points held out no nearer
 GAIN = 0.97  # of the RMS of points held out: more control points that bring less follow noise
 HOPELESS = 2.0  # times the control points without such a gain, after which refinement ends
 
@@ -167,7 +167,7 @@ def fit_bspline(
         if smoothest is None or level.held_out < GAIN * smoothest.level.held_out:
             smoothest = sampled
         rows, is_out = sampled.rows, sampled.is_out
-        if level.largest <= tolerance:
+        if level.largest <= tolerance:  # of a sample: what all the points say decides
             fit, is_out = _fit_all(points, uv, sampled, levels, rules)
             rows = np.arange(len(points))
             if fit.is_met:

@@ -7,7 +7,7 @@ from numba import njit
 
 from .link_trust import are_adjacent
 
-JOINED, FULL, TWISTED = 0, 1, 2
+JOINED, FULL, TWISTED = 0, 1, 2  # outcomes of `join_alike`: numbers, as compiled code has no enumerations
 
 
 @njit(cache=True, nogil=True)
@@ -23,6 +23,7 @@ def count_votes(indptr, indices, is_open, first, last, votes):
             j, k = indices[e], indices[following]
             held_by_j = are_adjacent(indptr, indices, is_open, j, k, i)
             held_by_k = are_adjacent(indptr, indices, is_open, k, i, j)
+            # Each triangle has an entry in every star that holds it: only one of them may count.
             if not (held_by_j and j < i) and not (held_by_k and k < i):
                 votes[e] = 1 + held_by_j + held_by_k
 
@@ -63,7 +64,7 @@ def count_at_edges(edge_of, wanted, is_contested):
     """Count the triangles that want each edge, up to three, and mark those with an edge that three want."""
     for t in range(len(edge_of)):
         for e in edge_of[t]:
-            wanted[e] = min(wanted[e] + 1, 3)
+            wanted[e] = min(wanted[e] + 1, 3)  # all that is asked is if there are more than two, and a byte holds it
     for t in range(len(edge_of)):
         is_contested[t] = wanted[edge_of[t, 0]] > 2 or wanted[edge_of[t, 1]] > 2 or wanted[edge_of[t, 2]] > 2
 
@@ -109,6 +110,7 @@ def name_edges(triangles, first, ends, edge_of):
             a, b = triangles[t, (k + 1) % 3], triangles[t, (k + 2) % 3]
             a, b = min(a, b), max(a, b)
             name = -1
+            # Edges are bucketed by their smaller end: a bucket holds half a star, short enough to search in turn.
             for s in range(first[a], first[a] + filled[a]):
                 if ends[slots[s], 1] == b:
                     name = slots[s]
@@ -130,6 +132,7 @@ def root_of(parent, is_odd, t):
         odd ^= is_odd[root]
         root = parent[root]
     turned = odd
+    # `turned` tells if t is turned against the root, not against the one above it.
     while parent[t] != root and t != root:
         above, beyond = parent[t], turned ^ is_odd[t]
         parent[t], is_odd[t] = root, turned
@@ -153,21 +156,25 @@ def join_alike(triangles, edge_of, sides, parent, is_odd, t):
         other = sides[e, 0]
         if other < 0:
             continue
+        # Neighbours are oriented alike if they run along their edge in opposite directions.
         runs_alike = False
         for j in range(3):
             if edge_of[other, j] == e:
                 runs_alike = triangles[other, (j + 1) % 3] == triangles[t, (k + 1) % 3]
         root, odd = root_of(parent, is_odd, np.int64(other))
         odd ^= runs_alike
+        # Two sides on one part that ask for opposite orientations: with this triangle it would be a Moebius strip.
         for j in range(k):
             if roots[j] == root and odds[j] != odd:
                 return TWISTED
+        # Tuples, made anew, as an array would be allocated for each triangle.
         roots = (root if k == 0 else roots[0], root if k == 1 else roots[1], root if k == 2 else roots[2])
         odds = (odd if k == 0 else odds[0], odd if k == 1 else odds[1], odd if k == 2 else odds[2])
     parent[t], is_odd[t] = t, False
     for k in range(3):
         put_beside(sides, edge_of[t, k], t)
         if roots[k] >= 0:
+            # Earlier sides may have hung t below another part.
             root, odd = root_of(parent, is_odd, t)
             if root_of(parent, is_odd, np.int64(roots[k]))[0] != root:
                 parent[root], is_odd[root] = roots[k], odd ^ odds[k]
@@ -206,6 +213,7 @@ def turn_alike(triangles, edge_of, parent, is_odd, outcome):
         if outcome[t] == JOINED:
             odd = root_of(parent, is_odd, t)[1]
             if odd:
+                # Edges lie opposite to their corners, so they change places with them.
                 triangles[t, 1], triangles[t, 2] = triangles[t, 2], triangles[t, 1]
                 edge_of[t, 1], edge_of[t, 2] = edge_of[t, 2], edge_of[t, 1]
     for t in range(len(triangles)):
@@ -248,6 +256,7 @@ def draw_tight(points, triangles, ends, edge_of, sides, is_boundary, on_rim, que
         cosine = 0.0
         for k in range(3):
             cosine += (points[a, k] - points[inner, k]) * (points[b, k] - points[inner, k])
+        # The inner corner lies in Thales' circle over the rim's edge: that edge cuts a bay of the boundary short.
         if cosine < 0.0:
             removed[t], on_rim[inner] = True, True
             for other in edge_of[t]:
@@ -276,7 +285,7 @@ def walk_rims(ends, edge_of, sides, seen, walk, starts):
             if edge != seed:
                 walk[size] = at
                 size += 1
-                at = ends[edge, 0] + ends[edge, 1] - at
+                at = ends[edge, 0] + ends[edge, 1] - at  # the other end
             triangle = sides[edge, 0]
             while True:
                 for k in range(3):

@@ -6,7 +6,7 @@ from numba import njit
 from ..mesh.drafts import first_around, next_around
 from ..mesh.half_edges import following, preceding
 
-RING = 32  # points that are kept at hand
+RING = 32  # points at hand, two a triangle: rings of over 16 triangles, against six mostly, are walked once more
 
 
 @njit(cache=True, nogil=True, inline="always")
@@ -51,6 +51,7 @@ def mark_far(draft, indptr, indices, first, last, points, is_far):
             if h == start:
                 break
         for e in range(indptr[i], indptr[i + 1]):
+            # Most links are edges of the mesh: the ring at hand tells of them without a walk.
             j, is_beside = indices[e], False
             for k in range(size):
                 is_beside |= ring[k] == j
@@ -80,7 +81,7 @@ def is_beyond(draft, v, other):
             return True
         back = draft.corners[preceding(h)]
         h = next_around(draft, h)
-        if h < 0:
+        if h < 0:  # v is on the boundary: the last neighbour begins no triangle of the fan
             return is_around(draft, back, other)
         if h == start:
             break

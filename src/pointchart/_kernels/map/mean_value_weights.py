@@ -37,6 +37,7 @@ def half_angle_tangent(points, apex, a, b):
     ux, uy, uz = points[a, 0] - points[apex, 0], points[a, 1] - points[apex, 1], points[a, 2] - points[apex, 2]
     vx, vy, vz = points[b, 0] - points[apex, 0], points[b, 1] - points[apex, 1], points[b, 2] - points[apex, 2]
     u, v = math.sqrt(ux * ux + uy * uy + uz * uz), math.sqrt(vx * vx + vy * vy + vz * vz)
+    # Of one length: then difference and sum are the diagonals of a rhombus, 2 sin and 2 cos of half the angle.
     px, py, pz, qx, qy, qz = ux * v, uy * v, uz * v, vx * u, vy * u, vz * u
     less = math.sqrt((px - qx) ** 2 + (py - qy) ** 2 + (pz - qz) ** 2)
     more = math.sqrt((px + qx) ** 2 + (py + qy) ** 2 + (pz + qz) ** 2)

@@ -12,8 +12,8 @@ from numba import njit
 from .half_edges import following, preceding
 from .swaps import angle_parts, are_joined, swap
 
-NORMALS, MEAN, GAUSSIAN, PRINCIPAL = 0, 1, 2, 3
-DEFECT, BEND, AREA = 0, 1, 2
+NORMALS, MEAN, GAUSSIAN, PRINCIPAL = 0, 1, 2, 3  # the costs: numbers, as compiled code has no enumerations
+DEFECT, BEND, AREA = 0, 1, 2  # columns of the sums
 SHAPE_WEIGHT = 1e-3  # of the cotangents: turns of a thousandth of a radian are flat, and there Delaunay's rule decides
 LEAST_GAIN = 1e-6  # the root of what rounding leaves of the angle defect in a plane
 MOST_COTANGENTS = 500.0  # of a triangle: with more, getting rid of a sliver would be worth a fold
@@ -22,6 +22,7 @@ MOST_COTANGENTS = 500.0  # of a triangle: with more, getting rid of a sliver wou
 @njit(cache=True, nogil=True)
 def area_vector(points, a, b, c):
     """Return the normal of a triangle with twice its area for length, to the last bit the same from every corner."""
+    # From the least corner on, so that what is taken off the sums is to the bit what was added.
     if b < a and b < c:
         a, b, c = b, c, a
     elif c < a and c < b:
@@ -63,6 +64,7 @@ def add_bend(points, cost, a, b, c, d, i, j, sign, sums):
     if d < 0:
         return
     length = 1.0 if cost == NORMALS else distance(points, a, b)
+    # A half for mean curvature's mean of two directions, a half for each end of the edge.
     bend = 0.25 * sign * length * turn_at_edge(points, a, b, c, d)
     sums[i, BEND] += bend
     sums[j, BEND] += bend
@@ -74,7 +76,7 @@ def add_triangle(points, a, b, c, i, j, k, sign, sums):
     for apex, left, right, row in ((a, b, c, i), (b, c, a, j), (c, a, b, k)):
         dot, cross, _ = angle_parts(points, apex, left, right)
         sums[row, DEFECT] -= sign * math.atan2(cross, dot)
-        sums[row, AREA] += sign * cross / 6.0
+        sums[row, AREA] += sign * cross / 6.0  # a third of the area, of which the cross product is twice
 
 
 @njit(cache=True, nogil=True)
@@ -115,6 +117,7 @@ def cost_at_point(cost, is_rim, defect, bend, area):
     if cost == GAUSSIAN:
         return abs(k)
     if cost == PRINCIPAL:
+        # |k1| + |k2| is |2 H| for K >= 0, else 2 sqrt(H^2 - K); bend is |H| times the area, and k is K times the area.
         return 2.0 * bend if k >= 0.0 else 2.0 * math.sqrt(bend * bend - k * max(area, 0.0))
     return bend
 
@@ -169,6 +172,7 @@ def curvature_swaps(points, corners, twin, cost, unit, is_rim, sums, touched):
             if max(touched[a], touched[b], touched[c], touched[d]) < sweep - 1:
                 continue
             gain = gain_of_swap(points, corners, twin, cost, unit, is_rim, h, sums, change)
+            # Asked so that a gain that is nan swaps nothing.
             if not gain > LEAST_GAIN * unit or are_joined(corners, twin, preceding(h), d):
                 continue
             swap(corners, twin, h)

@@ -32,11 +32,13 @@ def record(draft, n, t):
 @njit(cache=True, nogil=True)
 def undo(draft, n):
     """Put the first n triangles of the journal back, the last first."""
+    # The last first, so that of a triangle noted twice the oldest state stands.
     for place in range(n - 1, -1, -1):
         t = draft.journal[place, 0]
         for k in range(3):
             draft.corners[3 * t + k] = draft.journal[place, 1 + k]
             draft.twin[3 * t + k] = draft.journal[place, 4 + k]
+    # Only when all are back: triangles that were not noted have to point at these again.
     for place in range(n):
         t = draft.journal[place, 0]
         for h in range(3 * t, 3 * t + 3):

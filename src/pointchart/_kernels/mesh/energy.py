@@ -29,7 +29,9 @@ def bend_energy(points, a, b, one, other):
     """Return the energy of edge ab between two triangles, given by their area vectors and areas."""
     x, y, z = points[a, 0] - points[b, 0], points[a, 1] - points[b, 1], points[a, 2] - points[b, 2]
     product = one[3] * other[3]
+    # A triangle without an area counts as folded back, lest a sliver hide a fold.
     cosine = (one[0] * other[0] + one[1] * other[1] + one[2] * other[2]) / product if product > 0.0 else -1.0
+    # sin^4(theta / 2) is (1 - cos theta)^2 / 4: no angle is needed.
     return 0.5 * (x * x + y * y + z * z) * (one[3] + other[3]) * (1.0 - cosine) ** 2
 
 

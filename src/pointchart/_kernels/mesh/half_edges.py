@@ -26,6 +26,7 @@ def pair_half_edges(corners, n_points, twin):
 
     An edge is none when two half-edges run the same way along it: more than two triangles, or opposite orientations.
     """
+    # Bucket v is filled through first[v + 1], which ends where bucket v + 1 begins: no second array is needed.
     first = np.zeros(n_points + 2, np.int32)
     for v in corners:
         first[v + 2] += 1
@@ -65,7 +66,7 @@ def count_fans(corners, twin, fans, seen):
         while k >= 0 and not seen[k]:
             seen[k] = True
             k = twin[preceding(k)]
-        k = twin[h]
+        k = twin[h]  # and the other way round, for fans on the boundary that h does not begin
         while k >= 0 and not seen[following(k)]:
             k = following(k)
             seen[k] = True

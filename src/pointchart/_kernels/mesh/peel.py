@@ -16,6 +16,7 @@ def peel(corners, twin, successor, stack, removed):
         if twin[h] < 0 and successor[corners[h]] != corners[following(h)]:
             stack[size] = h
             size += 1
+    # A triangle may wait by more than one of its sides, so it may be gone when its turn comes.
     while size > 0:
         size -= 1
         h = stack[size]

@@ -9,8 +9,10 @@ from .half_edges import cross_at, following, preceding
 from .swaps import are_joined, link
 
 ON_BOUNDARY = 1 << 30  # rank of a fan on the boundary asked for, over that of any size
-FEW_BAD, MOST_BAD = 6, 0.25  # ears that may fold back: as many, or a share of the rim
-MOST_LOOKED_AT = 4000  # points of a rim up to which each ear is looked at for those it holds
+# Ears that may fold back: as many, or a share of the rim. A choice: small pockets may fold back all round, as in noise;
+# one that does at every fourth point of a long rim is no pocket, and there a map has to tell.
+FEW_BAD, MOST_BAD = 6, 0.25
+MOST_LOOKED_AT = 4000  # points of a rim up to which each ear is looked at for those it holds: the time is their square
 
 
 @njit(cache=True, nogil=True)
@@ -22,7 +24,7 @@ def to_half_edges(triangles, edge_of, sides, number, corners, twin):
         for k in range(3):
             h, e = 3 * number[t] + k, edge_of[t, (k + 2) % 3]
             corners[h], twin[h] = triangles[t, k], -1
-            other = sides[e, 0] + sides[e, 1] - t
+            other = sides[e, 0] + sides[e, 1] - t  # -1 at an edge of one triangle
             if sides[e, 1] >= 0 and number[other] >= 0:
                 for j in range(3):
                     if edge_of[other, (j + 2) % 3] == e:
@@ -88,6 +90,7 @@ def mark_pinching(corners, twin, rim, ahead, behind, first, is_kept):
     n_triangles, dropped = np.zeros(len(first), np.int32), 0
     for v in corners:
         n_triangles[v] += 1
+    # Each fan on a rim is met once, at the boundary half-edge that leaves its point.
     for h in range(len(corners)):
         if twin[h] >= 0:
             continue
@@ -176,6 +179,7 @@ def cut_walks(corners, twin, ahead, behind, place, path, loops, starts, is_kept)
                 other = fan_size(corners, twin, closed[v], ahead[v], behind[v])[1]
                 drop_fan(twin, h if one < other else closed[v], is_kept)
                 tangled += 1
+            # The walk has come back to a point: what it went through since is a loop of its own.
             if place[v] >= 0:
                 size, depth = close_loop(corners, place, path, np.int64(place[v]), depth, loops, starts, count, size)
                 count += 1
@@ -223,6 +227,7 @@ def cap(points, corners, twin, loop, first_free):
             k = active[place]
             if edge[k] < 0 or left <= 3 or cost[k] == np.inf or (bad[k] and not may_be_bad):
                 continue
+            # Ears beside each other share a half-edge, so only one of them can be cut.
             if goes_before(cost, bad, before[k], k) or goes_before(cost, bad, after[k], k):
                 continue
             other = after[k]
@@ -278,6 +283,7 @@ def ear_cost(points, corners, twin, edge, active, one, next_one, is_last):
     """
     h, k = edge[one], edge[next_one]
     a, b, c = corners[h], corners[k], corners[following(k)]
+    # The last ear's base is the third side, an edge. Asked at both ends: at a pinch, a walk sees one fan of the point.
     if a == c or (not is_last and (are_joined(corners, twin, h, c) or are_joined(corners, twin, following(k), a))):
         return np.inf, True
     base = 0.0
@@ -304,6 +310,7 @@ def is_over(points, v, a, b, c, nx, ny, nz):
     for d, n in ((0, nx), (1, ny), (2, nz)):
         height += (points[v, d] - points[a, d]) * n
     area = nx * nx + ny * ny + nz * nz
+    # The height is |n| times the distance, so this asks if the squared distance is over |n|, twice the area.
     if height * height > area * math.sqrt(area):
         return False
     for p, q in ((a, b), (b, c), (c, a)):

@@ -8,9 +8,10 @@ from .energy import alone_energy, swap_gain, tent_energy
 from .half_edges import following, preceding
 from .swaps import are_joined, link
 
-MOST_TRIANGLES = 60  # around a point that is taken out
-MOST_SWAPS = 400  # after one is put in
-STACK = 5 * MOST_SWAPS + 20
+MOST_TRIANGLES = 60  # around a point that is taken out, a cap: on the face there are 17 at most
+MOST_SWAPS = 400  # after one is put in, a cap: on the face there are 21 at most
+STACK = 5 * MOST_SWAPS + 20  # each swap asks for five edges; it begins with the twelve of four triangles
+# Both triangles of each swap are noted; taking out notes three more and putting in one.
 JOURNAL = 2 * (MOST_TRIANGLES + MOST_SWAPS) + 10
 
 
@@ -25,6 +26,7 @@ def relocate(draft, queue, waiting, count, indptr, indices, least, most, is_touc
     head = moves = tried = 0
     while count > 0 and tried < most:
         v = queue[head]
+        # A point waits once at most, so the ring of as many places as points has room.
         head, count, tried = (head + 1) % len(queue), count - 1, tried + 1
         waiting[v] = False
         n = relocate_one(draft, v, indices[indptr[v] : indptr[v + 1]], stack, least)
@@ -63,6 +65,7 @@ def relocate_one(draft, v, near, stack, least):
             stack[size] = k
             size += 1
     n, smoothed = descend(draft, n, stack, size, least)
+    # Where its own place is the cheapest, nothing is gained, and all is undone.
     if not change + taken + added + smoothed < -least:
         undo(draft, n)
         return 0
@@ -96,14 +99,14 @@ def take_out(draft, n, v, h, one, two):
     ab, bc, ca = following(h), following(one), following(two)
     before = tent_energy(draft, v, a, b, c, ab, bc, ca)
     out_ab, out_bc, out_ca = draft.twin[ab], draft.twin[bc], draft.twin[ca]
-    for k in (h, one, two):
+    for k in (h, one, two):  # all three: `put_in` fills two of them without noting what they were
         n = record(draft, n, k // 3)
     first = 3 * (h // 3)
     draft.corners[first], draft.corners[first + 1], draft.corners[first + 2] = a, b, c
     link(draft.twin, first, out_ab)
     link(draft.twin, first + 1, out_bc)
     link(draft.twin, first + 2, out_ca)
-    anchor(draft, first // 3)
+    anchor(draft, first // 3)  # a, b and c must not leave by the two triangles that are free now
     return n, alone_energy(draft, a, b, c, first, first + 1, first + 2) - before
 
 

@@ -8,8 +8,8 @@ from .half_edges import following, preceding
 from .swaps import are_joined
 
 MOST_CROSSED = 200  # edges on the way from one end to the other
-MOST_SWAPS = 300
-JOURNAL = 2 * MOST_SWAPS
+MOST_SWAPS = 300  # for one edge, a cap: the maze takes 89 at most for those that are recovered, the face 30
+JOURNAL = 2 * MOST_SWAPS  # both triangles of each swap
 
 
 @njit(cache=True, nogil=True, inline="always")

@@ -8,7 +8,7 @@ from numba import njit
 from .half_edges import following, preceding
 
 LEAST_GAIN = 1e-12  # in the measure of the angles: smaller differences are rounding, and might swap for ever
-MOST_SWAPS_OF_A_TRIANGLE = 100
+MOST_SWAPS_OF_A_TRIANGLE = 100  # a cap: 16 real scans take 11 at most, and 27 where all of them are mapped
 
 
 @njit(cache=True, nogil=True)
@@ -27,8 +27,9 @@ def angle_sum_measure(points, p, q, a, b):
     dot_p, cross_p, length_p = angle_parts(points, p, a, b)
     dot_q, cross_q, length_q = angle_parts(points, q, a, b)
     length = length_p * length_q
-    if length == 0.0:
+    if length == 0.0:  # points that coincide: any other diagonal is better
         return 4.0
+    # Cosine and sine of the sum, without the angles; past pi the sine is negative and the cosine rises again.
     cosine = (dot_p * dot_q - cross_p * cross_q) / length
     return 3.0 + cosine if dot_p * cross_q + cross_p * dot_q < 0.0 else 1.0 - cosine
 
@@ -45,7 +46,7 @@ def are_joined(corners, twin, h, other):
             break
     if k == h:
         return False
-    k = twin[h]
+    k = twin[h]  # the boundary was met: the rest of the fan lies the other way round
     while k >= 0:
         k = following(k)
         if corners[following(k)] == other or corners[preceding(k)] == other:
@@ -70,7 +71,7 @@ def swap(corners, twin, h):
     """
     t = twin[h]
     h_back, t_back = preceding(h), preceding(t)
-    outside_ca, outside_db = twin[h_back], twin[t_back]
+    outside_ca, outside_db = twin[h_back], twin[t_back]  # bc and ad stay with their triangles
     corners[h], corners[t] = corners[t_back], corners[h_back]
     link(twin, h, outside_db)
     link(twin, t, outside_ca)
@@ -106,6 +107,7 @@ def delaunay_swaps(points, corners, twin, stack, size, queued, swapped, barred):
             other = twin[side]
             if other < 0:
                 continue
+            # The caller may have queued either of the two; one name each keeps the stack within its room.
             edge = min(side, other)
             if not queued[edge] and not queued[max(side, other)]:
                 queued[edge] = True

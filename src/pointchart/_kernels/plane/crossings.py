@@ -2,9 +2,9 @@
 
 from numba import njit
 
-UNSURE = 2
+UNSURE = 2  # in place of a sign: -1, 0 and 1 are taken
 
-# Shewchuk 1997: a computed orientation is right if it exceeds this share of the sum of its terms.
+# Shewchuk 1997: a computed orientation is right if it exceeds (3 + 16 eps) eps times the sum of its terms, eps 2^-53.
 FILTER = 3.3306690738754716e-16
 
 
@@ -34,6 +34,7 @@ def find_crossing(polygon, order, low, high, unsure):
             if j == (i + 1) % b or i == (j + 1) % b:
                 continue
             cx, cy, dx, dy = polygon[j, 0], polygon[j, 1], polygon[(j + 1) % b, 0], polygon[(j + 1) % b, 1]
+            # By x the sweep has asked already: these pairs have boxes that meet.
             if max(cy, dy) < min(ay, by) or min(cy, dy) > max(ay, by):
                 continue
             c, d = turn(ax, ay, bx, by, cx, cy), turn(ax, ay, bx, by, dx, dy)
@@ -44,6 +45,7 @@ def find_crossing(polygon, order, low, high, unsure):
                 continue
             if c * d < 0 and a * e < 0:
                 return True, count
+            # No room to ask exactly: so many unsure pairs are those of a polygon that lies on itself.
             if count == len(unsure):
                 return True, count
             unsure[count, 0], unsure[count, 1] = i, j

@@ -36,7 +36,7 @@ def holds(boxes, v, x, y, slack):
 @njit(cache=True, nogil=True, inline="always")
 def next_box(v):
     """Return the box after v and all below it in the order of depth, 0 at the end; boxes 2v and 2v + 1 are below v."""
-    while v & 1:
+    while v & 1:  # a right child: all below its parent has been seen
         v >>= 1
     return v + 1 if v > 0 else 0
 
@@ -53,6 +53,7 @@ def find_triangle(uv, triangles, boxes, x, y, slack):
             if v < leaves:
                 v *= 2
                 continue
+            # The triangle of any hit will not do: one off by rounding may come first, and a deeper one after.
             inside = depth(uv, triangles[v - leaves], x, y)
             if inside >= deepest:
                 found, deepest = v - leaves, inside

@@ -10,8 +10,8 @@ import math
 import numpy as np
 from numba import njit
 
-LEAF = 8
-DEEPEST = 64  # levels of a tree
+LEAF = 8  # points; a choice between more boxes, which cost memory and steps, and more distances that lead nowhere
+DEEPEST = 64  # levels of a tree, over those of any number of points that 64 bits hold
 SLACK, SMALLEST = 1.0 + 1e-9, 1e-300  # for rounding, and for points that coincide
 
 
@@ -51,6 +51,7 @@ def find_nearest(points, low, high, queries, found, squares):
     for place in range(len(queries)):
         i, row, far = queries[place], found[place], squares[place]
         x, y, z = points[i, 0], points[i, 1], points[i, 2]
+        # By the triangle inequality: what was found around the point before lies within reach + way of this one.
         way = math.sqrt((x - points[before, 0]) ** 2 + (y - points[before, 1]) ** 2 + (z - points[before, 2]) ** 2)
         count, worst = 0, (reach + way) ** 2 * SLACK + SMALLEST
         subtree = path = leaves + i // LEAF
@@ -64,7 +65,7 @@ def find_nearest(points, low, high, queries, found, squares):
                 if node < leaves:
                     near, other = 2 * node, 2 * node + 1
                     a, b = square_to_box(low, high, near, x, y, z), square_to_box(low, high, other, x, y, z)
-                    if a > b:
+                    if a > b:  # the nearer on top: what it holds may rule the other out
                         near, other, a, b = other, near, b, a
                     if b < worst:
                         stack[size], square[size] = other, b
@@ -74,6 +75,7 @@ def find_nearest(points, low, high, queries, found, squares):
                         size += 1
                     continue
                 begin = (node - leaves) * LEAF
+                # By insertion, as rows are short and mostly in order.
                 for j in range(begin, min(begin + LEAF, n)):
                     dx, dy, dz = points[j, 0] - x, points[j, 1] - y, points[j, 2] - z
                     d = dx * dx + dy * dy + dz * dz
@@ -89,6 +91,7 @@ def find_nearest(points, low, high, queries, found, squares):
                         worst = far[most - 1]
             if path == 1:
                 break
+            # One level up, of which this half has been searched: on with the other.
             subtree, path = path ^ 1, path // 2
         before, reach = np.int64(i), math.sqrt(far[most - 1])
 

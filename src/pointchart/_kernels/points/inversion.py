@@ -28,6 +28,7 @@ def turns_left(ax, ay, bx, by, cx, cy):
     """Tell whether the path a, b, c turns left by more than rounding."""
     ux, uy, vx, vy = bx - ax, by - ay, cx - bx, cy - by
     cross = ux * vy - uy * vx
+    # Squared on both sides, to save two roots in the innermost loop; so the sign is asked first.
     return cross > 0.0 and cross * cross > FLAT_TURN_SINE**2 * ((ux * ux + uy * uy) * (vx * vx + vy * vy))
 
 
@@ -50,6 +51,7 @@ def project(points, normal, i, neighbors, steepest, name, x, y, angle):
         dx, dy, dz = points[j, 0] - points[i, 0], points[j, 1] - points[i, 1], points[j, 2] - points[i, 2]
         px, py = dx * ux + dy * uy + dz * uz, dx * vx + dy * vy + dz * vz
         flat = px * px + py * py
+        # `<=`, so that a point that coincides goes too: it has no direction.
         if j == i or flat <= (1.0 - steepest * steepest) * (dx * dx + dy * dy + dz * dz):
             continue
         t = pseudo_angle(px, py)
@@ -73,6 +75,7 @@ def drop_hidden(name, x, y, n):
             kept -= 1
         name[kept], x[kept], y[kept] = name[k], x[k], y[k]
         kept += 1
+    # First and last may be one direction too, on both sides of where pseudo-angles begin anew.
     if kept > 1 and is_one_direction(x[0], y[0], x[kept - 1], y[kept - 1]):
         kept -= 1
         if x[kept] ** 2 + y[kept] ** 2 < x[0] ** 2 + y[0] ** 2:
@@ -109,7 +112,7 @@ def measure_sides(x, y, turns, n):
 @njit(cache=True, nogil=True)
 def gap_end(x, y, n):
     """Return the neighbour behind a gap of at least pi, anticlockwise, or -1 where there is none."""
-    if n < 3:
+    if n < 3:  # such a gap is there always
         return 0 if n < 2 or x[0] * y[1] - y[0] * x[1] > 0.0 else 1
     for k in range(n):
         m = k + 1 if k + 1 < n else 0
@@ -130,6 +133,7 @@ def hull_of_inverses(x, y, n, start, is_open, p, q, stack):
         square = x[k] * x[k] + y[k] * y[k]
         p[k], q[k] = x[k] / square, y[k] / square
     size = 0
+    # Graham's scan; a closed star begins with the nearest, a corner for certain, and ends when it comes round to it.
     for step in range(n if is_open else n + 1):
         k = start + step if start + step < n else start + step - n
         while size > 1:
@@ -188,7 +192,7 @@ def delaunay_stars(
         n = drop_hidden(name, x, y, n)
         start = gap_end(x, y, n)
         is_open[i] = start >= 0
-        if not is_open[i]:
+        if not is_open[i]:  # the nearest neighbour is the farthest inverse, so it is on the hull
             start = 0
             for k in range(1, n):
                 if x[k] ** 2 + y[k] ** 2 < x[start] ** 2 + y[start] ** 2:

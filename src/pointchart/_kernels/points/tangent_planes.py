@@ -19,8 +19,9 @@ def smallest_eigenvector(xx, xy, xz, yy, yz, zz):
         return 0.0, 0.0, 1.0
     half_det = (a * (b * c - yz * yz) - xy * (xy * c - yz * xz) + xz * (xy * yz - b * xz)) / (2.0 * spread**3)
     angle = math.acos(min(1.0, max(-1.0, half_det))) / 3.0
-    smallest = mean + 2.0 * spread * math.cos(angle + 2.0943951023931953)
+    smallest = mean + 2.0 * spread * math.cos(angle + 2.0943951023931953)  # 2 pi / 3 on: the least of the three roots
     a, b, c = xx - smallest, yy - smallest, zz - smallest
+    # The vector is orthogonal to all rows; of two that are nearly parallel, the product is mostly rounding.
     best, nx, ny, nz = -1.0, 0.0, 0.0, 1.0
     for k in range(3):
         if k == 0:
@@ -41,7 +42,7 @@ def smallest_eigenvector(xx, xy, xz, yy, yz, zz):
 @njit(cache=True, nogil=True, inline="always")
 def tangent_frame(nx, ny, nz):
     """Return two unit vectors that complete a unit normal to a right-handed frame (Duff et al. 2017)."""
-    sign = math.copysign(1.0, nz)
+    sign = math.copysign(1.0, nz)  # keeps the sum below from 0, also for a normal that points straight down
     a = -1.0 / (sign + nz)
     b = nx * ny * a
     return 1.0 + sign * nx * nx * a, sign * b, -sign * nx, b, sign + ny * ny * a, -ny
@@ -60,6 +61,7 @@ def fit_planes(points, indptr, indices, fading, first, last, normals, offsets):
             x, y, z = points[j, 0] - points[i, 0], points[j, 1] - points[i, 1], points[j, 2] - points[i, 2]
             farthest = max(farthest, x * x + y * y + z * z)
         rate = fading / farthest if farthest > 0.0 else 0.0
+        # The point itself is the origin and has weight 1, so it adds to n alone.
         n, mx, my, mz, xx, xy, xz, yy, yz, zz = 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
         for j in indices[indptr[i] : indptr[i + 1]]:
             x, y, z = points[j, 0] - points[i, 0], points[j, 1] - points[i, 1], points[j, 2] - points[i, 2]
@@ -70,7 +72,7 @@ def fit_planes(points, indptr, indices, fading, first, last, normals, offsets):
         xx, xy, xz = xx - mx * mx / n, xy - mx * my / n, xz - mx * mz / n
         yy, yz, zz = yy - my * my / n, yz - my * mz / n, zz - mz * mz / n
         scale = xx + yy + zz
-        if scale > 0.0:
+        if scale > 0.0:  # to trace 1, lest third powers underflow
             xx, xy, xz, yy, yz, zz = xx / scale, xy / scale, xz / scale, yy / scale, yz / scale, zz / scale
         nx, ny, nz = smallest_eigenvector(xx, xy, xz, yy, yz, zz)
         normals[i, 0], normals[i, 1], normals[i, 2] = nx, ny, nz

@@ -44,7 +44,7 @@ def pierces(points, one, sides, other):
             continue
         if product * u * v * w != 0:
             return 1
-        verdict = 0
+        verdict = 0  # unsure, but another edge may be sure
     return verdict
 
 
@@ -66,10 +66,11 @@ def is_apart_in_plane(points, one, other, x, y):
 def meet(points, one, other):
     """Tell if two triangles, as tuples of corners, have a place in common: 1, -1 if not, 0 if unsure."""
     sides_of_one, sides_of_other = sides_of(points, one, other), sides_of(points, other, one)
+    # Two triangles meet if and only if an edge of one meets the other.
     if abs(sum(sides_of_one)) == 3 or abs(sum(sides_of_other)) == 3:
         return -1
     verdict = max(pierces(points, other, sides_of_one, one), pierces(points, one, sides_of_other, other))
-    if verdict == 0:
+    if verdict == 0:  # mostly triangles in one plane: parted here, they need no exact arithmetic, which is slow
         for x in range(3):
             y = (x + 1) % 3
             if is_apart_in_plane(points, one, other, x, y) or is_apart_in_plane(points, other, one, x, y):

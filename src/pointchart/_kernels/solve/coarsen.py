@@ -7,7 +7,7 @@ i before `middle[i]`.
 import numpy as np
 from numba import njit
 
-STRONG = 0.25  # of the largest weight of a row, from which on a link is strong
+STRONG = 0.25  # of the largest weight of a row, from which on a link is strong (Ruge and Stueben 1987, as is usual)
 
 
 @njit(cache=True, nogil=True)
@@ -89,7 +89,7 @@ def choose_coarse(indptr, indices, first, origins, strong, coarse):
     for i in range(n):
         rank[i] = first[i + 1] - first[i]
         most = max(most, rank[i])
-    most = 2 * most + 2
+    most = 2 * most + 2  # lists: no point counts more than twice in a rank
     head, after, before = np.full(most, -1, np.int32), np.empty(n, np.int32), np.empty(n, np.int32)
     for i in range(n - 1, -1, -1):
         push(head, after, before, i, rank[i])
@@ -103,6 +103,7 @@ def choose_coarse(indptr, indices, first, origins, strong, coarse):
         i = head[top]
         pull(head, after, before, i, rank[i])
         if rank[i] == 0:
+            # Nothing depends on it any more: interpolated if it depends on others, solved for if it is alone.
             coarse[i] = -1 if has_strong(indptr, strong, i) else 0
             continue
         coarse[i] = 0
@@ -172,6 +173,7 @@ def interpolate(indptr, indices, data, diagonal, strong, coarse, p_indptr, p_ind
             p_indices[size], p_data[size] = coarse[i], 1.0
             size += 1
             continue
+        # Positive entries have no place in an interpolation; on the diagonal they keep the sum of the row.
         total, taken, center = 0.0, 0.0, diagonal[i]
         for e in range(indptr[i], indptr[i + 1]):
             if data[e] < 0.0:

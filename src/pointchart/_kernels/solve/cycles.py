@@ -7,7 +7,7 @@ unsigned.
 
 from numba import njit
 
-BLOCK = 2048  # rows
+BLOCK = 2048  # rows: a choice between more that threads can share and more that one sweep couples
 
 
 @njit(cache=True, nogil=True)
@@ -18,7 +18,7 @@ def sweep_forward(indptr, middle, indices, data, inverse, known, x, first, last)
             s, t = known[i, 0], known[i, 1]
             for e in range(indptr[i], middle[i]):
                 j, a = indices[e], data[e]
-                if j >= begin:
+                if j >= begin:  # other blocks may be under way on another thread, so they count as zero still
                     s, t = s - a * x[j, 0], t - a * x[j, 1]
             x[i, 0], x[i, 1] = s * inverse[i], t * inverse[i]
 
@@ -75,6 +75,7 @@ def sweep_backward(indptr, middle, indices, data, inverse, known, x, better, fir
                 s, t = s - a * x[j, 0], t - a * x[j, 1]
             for e in range(middle[i], indptr[i + 1]):
                 j, a = indices[e], data[e]
+                # Hence two vectors: of other blocks the old values, whichever thread is ahead.
                 u, v = (better[j, 0], better[j, 1]) if j < end else (x[j, 0], x[j, 1])
                 s, t = s - a * u, t - a * v
             better[i, 0], better[i, 1] = s * inverse[i], t * inverse[i]
@@ -84,7 +85,7 @@ def sweep_backward(indptr, middle, indices, data, inverse, known, x, better, fir
 def multiply(indptr, indices, data, x, product, other, sums, first, last):
     """Write rows first..last of the product of a matrix and x; for `sums` of a block see `add_products`."""
     for begin in range(first, last, BLOCK):
-        place = begin // BLOCK
+        place = begin // BLOCK  # a sum a block, added up in one order later: the same digits on any number of threads
         sums[place] = 0.0
         for i in range(begin, min(begin + BLOCK, last)):
             s = t = 0.0

@@ -67,7 +67,7 @@ def join(part, a, b):
     while part[b] != b:
         part[b] = part[part[b]]
         b = part[b]
-    part[max(a, b)] = min(a, b)
+    part[max(a, b)] = min(a, b)  # by name, not by size: the root is the smallest point whatever the order
     return a != b
 
 
@@ -87,7 +87,7 @@ def join_parts(points, indptr, indices, spacing, most, part):
                 continue
             join(part, i, j)
     for i in range(len(points)):
-        part[i] = part[part[i]]
+        part[i] = part[part[i]]  # one step is enough in this order: a smaller point leads to its root already
 
 
 @njit(cache=True, nogil=True)

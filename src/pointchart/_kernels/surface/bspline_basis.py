@@ -14,6 +14,7 @@ def find_span(knots, degree, t):
             high = middle
         else:
             low = middle
+    # At the end of the domain, where knots coincide, back to the last span that has a length.
     while low > degree and knots[low] == knots[low + 1]:
         low -= 1
     return low
@@ -22,7 +23,7 @@ def find_span(knots, degree, t):
 @njit(cache=True, nogil=True)
 def basis(knots, degree, span, t, order, out, triangle, factors):
     """Write the derivatives up to `order` of the degree + 1 functions that are not 0 in a span (Piegl, Tiller A2.3)."""
-    triangle[0, 0] = 1.0
+    triangle[0, 0] = 1.0  # above its diagonal the functions of each degree, below the differences of knots
     for j in range(1, degree + 1):
         saved = 0.0
         for r in range(j):
@@ -39,7 +40,7 @@ def basis(knots, degree, span, t, order, out, triangle, factors):
         factors[0, 0] = 1.0
         for k in range(1, order + 1):
             value, rk, pk = 0.0, r - k, degree - k
-            if pk < 0:
+            if pk < 0:  # more derivatives than the degree
                 out[k, r] = 0.0
                 continue
             if r >= k:

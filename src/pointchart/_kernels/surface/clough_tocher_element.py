@@ -73,17 +73,19 @@ def coordinates(uv, triangle, x, y, out):
 def evaluate(uv, triangles, boxes, slack, points, gradients, crossings, places, du, dv, first, last, out):
     """Write the mixed derivative of order (du, dv), at most 3 in all, at places first..last; nan off the mesh."""
     net, weights = np.empty((10, 3)), np.empty((3, 3))
-    factor = 6.0 / math.gamma(4 - du - dv)
+    factor = 6.0 / math.gamma(4 - du - dv)  # 3! / (3 - du - dv)!, as each derivative of a cubic takes down its degree
     for p in range(first, last):
         out[p] = math.nan
         t = find_triangle(uv, triangles, boxes, places[p, 0], places[p, 1], slack)
         if t < 0:
             continue
+        # The place lies in the piece at the side across from the corner whose coordinate is least.
         apex = coordinates(uv, triangles[t], places[p, 0], places[p, 1], weights)
         i, j = (apex + 1) % 3, (apex + 2) % 3
         write_net(points, gradients, uv, triangles[t], crossings[t], i, net)
         for step in range(3):
             row = 1 if step < du else 2 if step < du + dv else 0
+            # Coordinates in the piece: its third corner is the barycentre g, so the apex is 3 g less the other two.
             third = weights[row, apex]
             contract(net, 3 - step, weights[row, i] - third, weights[row, j] - third, 3.0 * third)
         for c in range(3):

@@ -7,7 +7,7 @@ from ..mesh.drafts import first_around, next_around, swap_noted
 from ..mesh.half_edges import following, preceding
 from ..plane.crossings import turn
 
-SPLITTER = 134217729.0  # 2^27 + 1
+SPLITTER = 134217729.0  # 2^27 + 1: cuts a double of 53 bits into two of 26, whose products are exact (Dekker 1971)
 
 
 @njit(cache=True, nogil=True)

@@ -21,6 +21,7 @@ def weight_jet(x, y, radius, jet):
         jet[:] = 0.0
         return
     rest = 1.0 - t
+    # w' is -20 t (1 - t)^3: over t it has no pole; the bend has one, which x and y in the jet take away.
     slope, bend = -20.0 * rest**3 / radius, 60.0 * rest**2 / max(t, 1e-300)
     jet[0] = rest**4 * (4.0 * t + 1.0)
     jet[1], jet[2] = slope * x, slope * y

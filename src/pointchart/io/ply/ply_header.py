@@ -7,6 +7,7 @@ from ...errors import FormatError
 from ..source import AnyPath, decode
 from ..table import is_index
 
+# The eight types of the format (Turk 1994), which are written, and the names with sizes, which are read as well.
 TYPES = {
     "char": "i1",
     "uchar": "u1",
@@ -19,10 +20,11 @@ TYPES = {
 }
 _SIZED = {"int8": "i1", "uint8": "u1", "int16": "i2", "uint16": "u2", "int32": "i4", "uint32": "u4"}
 _SIZED |= {"int64": "i8", "uint64": "u8", "float32": "f4", "float64": "f8"}
-_CODES = TYPES | _SIZED
-_ORDERS = {"ascii": "", "binary_little_endian": "<", "binary_big_endian": ">"}
+_CODES = TYPES | _SIZED  # those of 64 bits are of no standard, but are written
+_ORDERS = {"ascii": "", "binary_little_endian": "<", "binary_big_endian": ">"}  # as numpy and struct call them
+# What the errors of looking up a word mean, for whoever wrote the file.
 _REASONS = {KeyError: "a type or format is unknown", IndexError: "a word or the element before it is missing"}
-_START = re.compile(rb"ply[ \t]*(\r\n|\n|\r)")
+_START = re.compile(rb"ply[ \t]*(\r\n|\n|\r)")  # the line end of this line is that of the header
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,6 +61,7 @@ def parse_header(path: AnyPath, data: bytes) -> Header:
     if start is None:
         raise FormatError(f"{path}: line 1 is not 'ply'; give the file the suffix of its format")
     newline = start[1]
+    # With the line end of the first line alone: another that follows may be a byte of the first point.
     end = re.search(newline + rb"end_header[ \t]*(?:" + newline + rb"|$)", data)
     if end is None:
         raise FormatError(f"{path}: the header has no 'end_header' in {len(data)} bytes; copy or export it again")

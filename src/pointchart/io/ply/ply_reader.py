@@ -12,7 +12,7 @@ from ..source import AnyPath, decode, read_bytes, split_lines
 from .ply_header import Element, Property, parse_header
 from .ply_rows import Group, binary_groups, cut_off, text_groups
 
-_CORNERS = ("vertex_indices", "vertex_index")
+_CORNERS = ("vertex_indices", "vertex_index")  # both names are in use
 
 
 def read_ply(path: AnyPath) -> Scan:

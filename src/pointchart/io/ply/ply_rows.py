@@ -21,7 +21,7 @@ from .ply_header import Element, Property
 Group: TypeAlias = tuple[Indices, NDArray[Any]]
 _Signature: TypeAlias = tuple[int, ...]
 _COUNT_OF = "count of "  # holds a blank, so no property can have the name
-_PLURAL = {"vertex": "vertices", "face": "faces"}
+_PLURAL = {"vertex": "vertices", "face": "faces"}  # for messages; other elements are "rows of"
 
 
 def binary_groups(path: AnyPath, data: bytes, start: int, element: Element, order: str) -> tuple[list[Group], int]:
@@ -29,13 +29,14 @@ def binary_groups(path: AnyPath, data: bytes, start: int, element: Element, orde
     n = element.n_rows
     if n == 0:
         return [], start
+    # As if all rows were like the first one: then numpy reads them at once, and the counts in them tell if it was so.
     signature, _ = _binary_signature(path, data, start, element, order, 0)
     dtype = _row_type(element, signature, order)
     if start + n * dtype.itemsize <= len(data):
         rows = np.frombuffer(data, dtype, n, start)
         if _has_signature(rows, element, signature):
             return [(np.arange(n), rows)], start + n * dtype.itemsize
-    elif not signature:
+    elif not signature:  # without lists all rows are equally long, so bytes are missing
         raise cut_off(path, element, (len(data) - start) // dtype.itemsize)
     starts, signatures = [], []
     for row in range(n):
@@ -152,7 +153,7 @@ def _structured(
         width = rows[name].shape[1] if rows[name].ndim == 2 else 1
         values = table[:, at : at + width].reshape(rows[name].shape)
         at += width
-        with np.errstate(over="ignore", invalid="ignore"):
+        with np.errstate(over="ignore", invalid="ignore"):  # what does not fit is found by comparing, next
             rows[name] = values
         if rows[name].dtype.kind != "f" and len(bad := np.argwhere(rows[name] != values)):
             line, kind = numbers[bad[0][0]], rows[name].dtype
@@ -164,5 +165,6 @@ def _size(p: Property) -> int:
     return int(p.type[1])
 
 
+# By struct, as there is a number a list, and to read a single one numpy takes eight times as long.
 _LETTERS = {"i1": "b", "u1": "B", "i2": "h", "u2": "H", "i4": "i", "u4": "I", "i8": "q", "u8": "Q"}
 _COUNTERS = {order + code: Struct(order + letter) for order in "<>" for code, letter in _LETTERS.items()}

@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 from ...typing import Attributes, Indices, Points, Triangles
 from .ply_header import TYPES
 
-_TYPE_NAMES = {code: name for name, code in TYPES.items()}
-_BLOCK = 1 << 17
+_TYPE_NAMES = {code: name for name, code in TYPES.items()}  # those of the format itself, which every program reads
+_BLOCK = 1 << 17  # rows at a time, so that a copy of them takes megabytes, however many there are
 
 
 def write_ply(

@@ -39,7 +39,7 @@ class Sheet:
     is_transparent: bool = False
 
 
-COLUMN = Sheet()
+COLUMN = Sheet()  # of a journal: what is drawn on where nothing else is said
 
 
 @dataclass(frozen=True, slots=True)

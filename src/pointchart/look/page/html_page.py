@@ -18,21 +18,27 @@ from numpy.typing import NDArray
 from ...io import replacing
 from ...mesh.connectivity import boundary_loops, half_edges
 from ...pipeline import Reconstruction
-from ...report import certificate_lines
-from ...typing import Floats, Indices, Points
+from ...report.checks import certificate_checks
+from ...typing import Floats, Indices, Points, Triangles
 from ..camera import camera, upright_axes, upward
+from ..color_scales import BELOW_AND_ABOVE, PALE_TO_DARK, counted
+from ..paint import ACCENT, FAINT, INK, PAPER, STEEL, STONE
 from .colorings import Shade, mesh_shades
 from .histograms import quality_histograms
 from .pack import packed, quantized, steps
-from .thinned import thin
+from .thinned import Thinned, thin
 
 MOST_POINTS = 200_000  # drawn: what a phone turns smoothly, and some 10 MB
-PAGE_SUFFIXES = (".html", ".htm")
+PAGE_SUFFIXES = (".html", ".htm")  # that browsers open as a page
+# What page.html has places for, by name: a page is one file, so that it opens offline.
 PARTS = ("page.css", "unpack.js", "geometry.js", "gl.js", "scene.js", "tell.js", "page.js")
+# What page.css calls the colours of the pictures, in the light.
+PALETTE = f"--paper: {PAPER}; --faint: {FAINT}; --ink: {INK}; --accent: {ACCENT}; --bar: {STEEL};"
+BARS = 60  # of the histogram over a scale of colours: a choice, some pixels each on a phone
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Page:
+class HtmlPage:
     """A page that is ready to be written.
 
     Attributes
@@ -51,7 +57,7 @@ class Page:
     def size_line(self) -> str:
         """How large the file is, and how many points it draws.
 
-        >>> Page("x" * 2_500_000, 900_000, 200_000).size_line
+        >>> HtmlPage("x" * 2_500_000, 900_000, 200_000).size_line
         '2.5 MB, opens offline; 200,000 of 900,000 points drawn'
         """
         thinned = f"; {self.n_drawn:,} of {self.n_points:,} points drawn" if self.n_drawn < self.n_points else ""
@@ -68,7 +74,7 @@ def lay_out(
     figure: str | None = None,
     deviation: Floats | None = None,
     most: int = MOST_POINTS,
-) -> Page:
+) -> HtmlPage:
     """Lay out the page of a run.
 
     Parameters
@@ -77,7 +83,7 @@ def lay_out(
         The vertices of the mesh.
     result : Reconstruction
     run : dict
-        What `run_report` gives.
+        What `mesh_facts` gives.
     title : str
         Name of the scan.
     command : str
@@ -91,22 +97,13 @@ def lay_out(
 
     Returns
     -------
-    Page
+    HtmlPage
     """
     title = title.encode("utf-8", "replace").decode()  # names of files may hold other bytes
     shown = thin(points, result.triangles, most)
     shades = mesh_shades(points, result.triangles, result.uv, result.loop, deviation=deviation)
-    loops = [shown.along(loop) for loop in boundary_loops(half_edges(result.triangles, len(points)))]
     low, extent = points.min(axis=0), float(np.ptp(points, axis=0).max())
-    up = upward(points, result.triangles)
-    arrays: dict[str, NDArray[Any]] = {
-        "position": quantized(points[shown.kept], low, extent),
-        "uv": result.uv[shown.kept].astype(np.float32),
-        "triangles": steps(shown.triangles.ravel()),
-        "loop": steps(np.concatenate(loops)),
-        "loop_sizes": np.array([len(loop) for loop in loops], np.uint32),
-        "row": steps(result.rows[shown.kept]),
-    }
+    arrays = {"position": quantized(points[shown.kept], low, extent), **_arrays(result, shown)}
     spacing = next(shade.values for shade in shades if shade.name == "spacing")
     described = []
     for shade in shades:
@@ -117,23 +114,44 @@ def lay_out(
         "title": title,
         "command": command,
         "figure": figure,
-        "up": up,
-        "upright": upright_axes(up).ravel().tolist(),
-        "turn": camera(points, result.triangles, up=up).ravel().tolist(),
+        **_standing(points, result.triangles),
         "made_with": f"pointchart {version('pointchart')}, Python {platform.python_version()}, numpy {np.__version__}",
         "box": {"low": low.tolist(), "extent": extent},
         "drawn": len(shown.kept),
         "arrays": table,
         "shades": described,
+        "stone": STONE.tolist(),
         "checks": [
-            {"passed": line.startswith("[ok]"), "measured": line.startswith("[--]"), "text": line[5:]}
-            for line in certificate_lines(result.certificate)
+            {"passed": bool(check.passed), "measured": check.passed is None, "text": check.text}
+            for check in certificate_checks(result.certificate)
         ],
         "places": _places(points, run),
         "histograms": quality_histograms(points, result.triangles, result.uv, spacing),
         "run": run,
     }
-    return Page(_filled(title, content, data), len(points), len(shown.kept))
+    return HtmlPage(_filled(title, content, data), len(points), len(shown.kept))
+
+
+def _standing(points: Points, triangles: Triangles) -> dict[str, Any]:
+    """Return how the mesh stands on the page, and from where it is looked at first."""
+    up = upward(points, triangles)
+    return {
+        "up": up,
+        "upright": upright_axes(up).ravel().tolist(),
+        "turn": camera(points, triangles, up=up).ravel().tolist(),
+    }
+
+
+def _arrays(result: Reconstruction, shown: Thinned) -> dict[str, NDArray[Any]]:
+    """Return what the page draws of a mesh, but for the places of its points."""
+    loops = [shown.along(loop) for loop in boundary_loops(half_edges(result.triangles, len(result.rows)))]
+    return {
+        "uv": result.uv[shown.kept].astype(np.float32),
+        "triangles": steps(shown.triangles.ravel()),
+        "loop": steps(np.concatenate(loops)),
+        "loop_sizes": np.array([len(loop) for loop in loops], np.uint32),
+        "row": steps(result.rows[shown.kept]),
+    }
 
 
 def _places(points: Points, run: dict[str, Any]) -> list[dict[str, Any]]:
@@ -152,12 +170,13 @@ def _described(shade: Shade, kept: Indices) -> tuple[dict[str, Any], NDArray[np.
     placed = shade.placed
     low, high = float(placed.min()), float(placed.max())
     first, last = shade.reach
-    counts, _ = np.histogram(np.clip(placed, first, last), bins=60, range=(first, last))
+    counts, _ = counted(placed, first, last, BARS)
     row = {
         "name": shade.name,
         "meaning": shade.meaning,
         "is_signed": shade.is_signed,
         "is_log": shade.is_log,
+        "colors": BELOW_AND_ABOVE if shade.is_signed else PALE_TO_DARK,
         "range": [low, high],
         "reach": [first, last],
         "counts": counts.tolist(),
@@ -169,13 +188,14 @@ def _filled(title: str, content: dict[str, Any], data: str) -> str:
     """Put everything into the one file; text from outside can end no element."""
     folder = files(__package__) / "assets"
     values = {name: (folder / name).read_text("utf-8") for name in PARTS}
+    values["page.css"] = values["page.css"].replace("{{palette}}", PALETTE)
     values |= {"title": html.escape(title), "data": data}
     values["content"] = json.dumps(content, allow_nan=False).replace("<", "\\u003c")
     return re.sub(r"{{([\w.]+)}}", lambda place: values[place[1]], (folder / "page.html").read_text("utf-8"))
 
 
 @contextmanager
-def writing_page(path: Path | None, page: Page | None) -> Iterator[None]:
+def writing_page(path: Path | None, page: HtmlPage | None) -> Iterator[None]:
     """Write a page, if there is one; it is in its place when the block has ended well."""
     with nullcontext() if path is None else replacing(path) as temporary:
         if temporary is not None and page is not None:

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from ...typing import Floats
 
-LEVELS = 65535
+LEVELS = 65535  # of two bytes: a step is far less than a pixel of any screen
 
 
 def quantized(values: Floats, low: Floats | float, extent: float) -> NDArray[np.uint16]:

@@ -1,0 +1,137 @@
+"""A fit run: read, mesh, fit."""
+
+from contextlib import ExitStack
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from ..._parallel import on_threads
+from ...cad import CAD_SUFFIXES
+from ...cad.occ import check_extra
+from ...clock import StageClock
+from ...errors import SolveError, points_called
+from ...io import MESH_SUFFIXES
+from ...look.page import PAGE_SUFFIXES, lay_out, writing_page
+from ...look.page.html_page import HtmlPage
+from ...look.paint import PICTURE_SUFFIXES
+from ...report.as_json import writing_json
+from ...report.mesh_facts import MeshedScan, mesh_facts
+from ...report.mesh_notes import boundary_notes, intersection_notes
+from ...report.record import Note, RunReport, WrittenFile
+from ...report.surface_facts import surface_facts
+from ...report.surface_notes import choice_notes, surface_notes
+from ...surface.surfacing import SurfacedScan, check_met, fit_scan
+from ...typing import Points
+from ..choices import GAPS
+from ..fit_run import FitRun
+from ..inputs import Inputs, check_outputs, read_inputs
+from .measured import measure_mesh
+from .surface_files import HOLD_DEVIATIONS, write_beside, write_surface
+from .written import options_facts, page_words, stages_of, untold
+
+
+def execute(run: FitRun, clock: StageClock) -> RunReport:
+    """Execute a fit run."""
+    with on_threads(run.running.threads):
+        inputs, allowed, surfaced = _surfaced(run, clock)
+        choices = choice_notes(surfaced) if run.files.explain else []
+        unmet = None if run.surface.best_effort else _unmet(surfaced, allowed, run.surface.share())
+        if unmet is not None:
+            return RunReport(run.command, notes=tuple(choices), stages=stages_of(clock), failure=unmet)
+        return _written(run, inputs, allowed, surfaced, clock, choices)
+
+
+def _surfaced(run: FitRun, clock: StageClock) -> tuple[Inputs, float, SurfacedScan]:
+    """Check what is asked for, then read, mesh and fit; return the tolerance in the unit of the scan, too."""
+    allowed_of, place = run.surface.allowed(), run.given.place()
+    share, fairness = run.surface.share(), run.surface.weight()
+    named = run.plane.named_corners()
+    _check_files(run)
+    inputs = read_inputs(run.source, run.given.boundary, named)
+    allowed = allowed_of(_diagonal(inputs.points))
+    with points_called(inputs.rows):
+        surfaced = fit_scan(
+            inputs.points,
+            inputs.loop,
+            tolerance=allowed,
+            outliers=share,
+            max_control=run.surface.max_control_points,
+            degree=run.surface.degree,
+            fairness=fairness,
+            loss=run.surface.loss(),
+            outer=place,
+            gaps=None if run.holes is None else GAPS[run.holes],
+            square=run.plane.square(inputs.corners),
+            clock=clock,
+        )
+    return inputs, allowed, surfaced
+
+
+def _check_files(run: FitRun) -> None:
+    out, told = run.files.out, run.told
+    outputs = (
+        (out, (*CAD_SUFFIXES, ".json", *MESH_SUFFIXES)),
+        (run.files.deviations, HOLD_DEVIATIONS),
+        (run.files.picture, PICTURE_SUFFIXES),
+        (run.files.reflections, PICTURE_SUFFIXES),
+        (told.report, (".json",)),
+        (told.html, PAGE_SUFFIXES),
+    )
+    check_outputs(outputs, [run.source.scan, run.given.boundary])
+    if out.suffix.lower() in CAD_SUFFIXES:
+        check_extra(out)
+
+
+def _diagonal(points: Points) -> float:
+    """Return the diagonal of the box around points; what is not finite in them is named later."""
+    with np.errstate(invalid="ignore", over="ignore"):
+        return float(np.hypot.reduce(np.ptp(points, axis=0)))
+
+
+def _unmet(surfaced: SurfacedScan, allowed: float, share: float) -> SolveError | None:
+    try:
+        check_met(surfaced, allowed, share)
+    except SolveError as unmet:
+        return unmet
+    return None
+
+
+def _written(
+    run: FitRun, inputs: Inputs, allowed: float, surfaced: SurfacedScan, clock: StageClock, choices: list[Note]
+) -> RunReport:
+    """Measure what was made, write it, and tell of it."""
+    meshed = measure_mesh(
+        inputs.scan.points, inputs.rows, surfaced.reconstruction, clock, is_boundary_given=run.given.is_given
+    )
+    measure = allowed, run.surface.share(), run.surface.unit
+    facts = mesh_facts(meshed, clock, options_facts(run))
+    facts["surface"] = surface_facts(surfaced, meshed.points, *measure)
+    page = _page(run, meshed, surfaced, facts, clock)
+    with ExitStack() as stack, writing_json(run.told.report, facts), writing_page(run.told.html, page):
+        write_beside(run, inputs, surfaced, allowed, stack)
+        write_surface(run.files.out, surfaced, run.surface.unit)
+    notes = [*choices, *boundary_notes(surfaced.reconstruction, meshed.points, found=not run.given.is_given)]
+    notes += [*intersection_notes(meshed.intersections), *surface_notes(surfaced, *measure)]
+    files = tuple(_files(run, page))
+    return RunReport(run.command, notes=tuple(notes), stages=stages_of(clock), files=files, facts=facts)
+
+
+def _page(
+    run: FitRun, meshed: MeshedScan, surfaced: SurfacedScan, facts: dict[str, Any], clock: StageClock
+) -> HtmlPage | None:
+    """Lay out the page, if one is asked for: over the parameters of the surface, which the fit has corrected."""
+    if run.told.html is None:
+        return None
+    made, off = replace(surfaced.reconstruction, uv=surfaced.fit.uv), surfaced.deviation.signed
+    with clock("page"):
+        return lay_out(meshed.points, made, facts, deviation=off, **page_words(run, run.source.scan, run.files.out))
+
+
+def _files(run: FitRun, page: HtmlPage | None) -> list[WrittenFile]:
+    files, told = run.files, run.told
+    beside = untold(
+        deviations=files.deviations, picture=files.picture, reflections=files.reflections, report=told.report
+    )
+    pages = [WrittenFile(told.html, "html", page.size_line)] if page and told.html else []
+    return [WrittenFile(files.out, "out"), *beside, *pages]

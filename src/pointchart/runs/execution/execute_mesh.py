@@ -1,0 +1,92 @@
+"""A mesh run: read, mesh, write."""
+
+from ..._parallel import on_threads
+from ...clock import StageClock
+from ...errors import points_called
+from ...io import MESH_SUFFIXES, check_digits, write_mesh
+from ...look.page import PAGE_SUFFIXES, lay_out, writing_page
+from ...look.page.html_page import HtmlPage
+from ...mesh.distortion import vertex_stretches
+from ...pipeline import Reconstruction, reconstruct
+from ...report.as_json import writing_json
+from ...report.checks import certificate_checks, summary
+from ...report.mesh_facts import MeshedScan, mesh_facts
+from ...report.mesh_notes import boundary_notes, intersection_notes
+from ...report.record import Note, RunReport, WrittenFile
+from ...typing import Attributes, Indices
+from ..choices import CHARTS, GAPS, SWAPS
+from ..inputs import Inputs, check_outputs, read_inputs
+from ..mesh_run import MeshRun
+from .measured import measure_mesh
+from .written import carried, options_facts, page_words, stages_of, untold
+
+HOLD_STRETCH = (".ply", ".npz")  # formats that hold any number a vertex: only for them is it measured
+
+
+def execute(run: MeshRun, clock: StageClock) -> RunReport:
+    """Execute a mesh run."""
+    with on_threads(run.running.threads):
+        inputs, result = _meshed(run, clock)
+        meshed = measure_mesh(inputs.scan.points, inputs.rows, result, clock, is_boundary_given=run.given.is_given)
+        facts, page = mesh_facts(meshed, clock, options_facts(run)), None
+        if run.told.html is not None:
+            with clock("page"):
+                page = lay_out(meshed.points, result, facts, **page_words(run, run.source.scan, run.out))
+        attributes = _attributes(run, inputs, meshed)
+        with writing_json(run.told.report, facts), writing_page(run.told.html, page):
+            said = write_mesh(run.out, meshed.points, result.triangles, uv=result.uv, attributes=attributes)
+    return RunReport(
+        run.command,
+        checks=tuple(certificate_checks(result.certificate)),
+        notes=(*_notes(meshed, inputs), *map(Note, said)),
+        stages=stages_of(clock),
+        files=tuple(_files(run, result, page)),
+        facts=facts,
+    )
+
+
+def _meshed(run: MeshRun, clock: StageClock) -> tuple[Inputs, Reconstruction]:
+    """Check what is asked for, then read and mesh."""
+    connect, place = run.method.connect(), run.given.place()
+    named, holes = run.plane.named_corners(), run.mesh.holes
+    outputs = ((run.out, MESH_SUFFIXES), (run.told.report, (".json",)), (run.told.html, PAGE_SUFFIXES))
+    check_outputs(outputs, [run.source.scan, run.given.boundary])
+    inputs = read_inputs(run.source, run.given.boundary, named)
+    check_digits(run.out, inputs.points)
+    with points_called(inputs.rows):
+        return inputs, reconstruct(
+            inputs.points,
+            inputs.loop,
+            outer=place,
+            gaps=None if holes is None else GAPS[holes],
+            connect=connect,
+            weights=run.method.scheme(),
+            swap=SWAPS[run.mesh.swap],
+            layout=run.plane.layout(inputs.corners),
+            chart=CHARTS[run.mesh.uv],
+            clock=clock,
+        )
+
+
+def _attributes(run: MeshRun, inputs: Inputs, meshed: MeshedScan) -> Attributes:
+    result, attributes = meshed.result, carried(inputs, inputs.rows[meshed.result.rows])
+    if run.out.suffix.lower() in HOLD_STRETCH:
+        attributes |= {"stretch": vertex_stretches(meshed.points, result.triangles, result.uv)}
+    return attributes
+
+
+def _notes(meshed: MeshedScan, inputs: Inputs) -> list[Note]:
+    notes = boundary_notes(meshed.result, meshed.points, found=not meshed.is_boundary_given)
+    return notes + intersection_notes(meshed.intersections) + _rows_left(inputs, meshed.result.rows)
+
+
+def _rows_left(inputs: Inputs, rows: Indices) -> list[Note]:
+    repeated, outside = len(inputs.rows) - len(rows), len(inputs.scan.points) - len(inputs.rows)
+    lines = [f"{outside} points in other parts left out"] if outside else []
+    lines += [f"{repeated} repeated points merged to the first"] if repeated else []
+    return [Note(f"{', '.join(lines)}; point_index gives each vertex's row")] if lines else []
+
+
+def _files(run: MeshRun, result: Reconstruction, page: HtmlPage | None) -> list[WrittenFile]:
+    files = [WrittenFile(run.out, "out", summary(result.certificate)), *untold(report=run.told.report)]
+    return files + ([WrittenFile(run.told.html, "html", page.size_line)] if page and run.told.html else [])

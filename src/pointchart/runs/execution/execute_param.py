@@ -1,0 +1,52 @@
+"""A param run: read, map, write."""
+
+from typing import Any
+
+from ..._parallel import on_threads
+from ...clock import StageClock
+from ...io import UV_SUFFIXES, write_uv
+from ...map.convex_combination import Parameterization
+from ...mesh.planar_delaunay import coinciding
+from ...pipeline import parameterize_scan
+from ...report.as_json import writing_json
+from ...report.mesh_facts import solve_facts, stage_facts
+from ...report.record import Note, RunReport, WrittenFile
+from ...typing import UV
+from ..inputs import Inputs, check_outputs, read_inputs
+from ..param_run import ParamRun
+from ..shared_options import Source
+from .written import carried, options_facts, stages_of, untold
+
+
+def execute(run: ParamRun, clock: StageClock) -> RunReport:
+    """Execute a param run."""
+    with on_threads(run.running.threads):
+        inputs, uv, mapped = _mapped(run, clock)
+        solution, n_doubled = mapped.solution, len(coinciding(mapped.uv))
+        facts: dict[str, Any] = {"options": options_facts(run), "stages": stage_facts(clock)}
+        facts |= {"solve": solve_facts(solution), "coinciding_uv": n_doubled}
+        with writing_json(run.report, facts):
+            said = write_uv(run.out, uv, points=inputs.points, attributes=carried(inputs, inputs.rows))
+    holds = (
+        f"parameters of {len(uv)} points, {n_doubled} of which coincide; {solution.unknowns} unknowns, "
+        f"{solution.method} solver, residual {solution.residual:.1e}"
+    )
+    files = (WrittenFile(run.out, "out", holds), *untold(report=run.report))
+    return RunReport(run.command, notes=tuple(map(Note, said)), stages=stages_of(clock), files=files, facts=facts)
+
+
+def _mapped(run: ParamRun, clock: StageClock) -> tuple[Inputs, UV, Parameterization]:
+    """Check what is asked for, then read and map; the parameters are those of the rows of the scan."""
+    connect, place, named = run.method.connect(), run.given.place(), run.plane.named_corners()
+    check_outputs(((run.out, UV_SUFFIXES), (run.report, (".json",))), [run.scan, run.given.boundary])
+    inputs = read_inputs(Source(scan=run.scan), run.given.boundary, named)
+    survey, mapped = parameterize_scan(
+        inputs.points,
+        inputs.loop,
+        outer=place,
+        connect=connect,
+        weights=run.method.scheme(),
+        layout=run.plane.layout(inputs.corners),
+        clock=clock,
+    )
+    return inputs, mapped.uv[survey.cloud.places], mapped

@@ -1,0 +1,94 @@
+"""What runs read, once it is known that their outputs can be written."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..errors import InputError
+from ..io import Scan, check_output, read_loop, read_scan
+from ..points.parts import largest_component
+from ..typing import UV, Indices, Loop, Points
+from .shared_options import Source
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Inputs:
+    """What a run works on.
+
+    Attributes
+    ----------
+    scan : Scan
+        As read.
+    rows : (k,) int64
+        The rows of the scan that are worked on.
+    loop : (b,) int64 or None
+        The boundary given, in places of `rows`.
+    corners : (4,) int64 or None
+        The corners named, in places of `rows`.
+    """
+
+    scan: Scan
+    rows: Indices
+    loop: Loop | None = None
+    corners: Indices | None = None
+
+    @property
+    def points(self) -> Points:
+        """The points that are worked on, (k, 3)."""
+        return self.scan.points[self.rows]
+
+    def places_of(self, named: ArrayLike, what: str) -> Indices:
+        """Return the places in `rows` of named rows of the file.
+
+        Raises
+        ------
+        InputError
+            If some are not worked on, or name no row.
+        """
+        indices, n_points = np.asarray(named, dtype=np.int64), len(self.scan.points)
+        wrong = indices[(indices < 0) | (indices >= n_points)]
+        if len(wrong):
+            raise InputError(
+                f"{len(wrong)} {what} name no point, such as {wrong[0]}; they run from 0 to {n_points - 1}"
+            )
+        place = np.full(n_points, -1, np.int64)
+        place[self.rows] = np.arange(len(self.rows))
+        outside = indices[place[indices] < 0]
+        if len(outside):
+            raise InputError(
+                f"{what} {{outside}} are not among the {len(self.rows)} points of the largest part; name points of it",
+                outside=outside,
+            )
+        return np.asarray(place[indices])
+
+
+Outputs = Sequence[tuple[Path | None, Sequence[str]]]
+
+
+def check_outputs(outputs: Outputs, inputs: Sequence[Path | None]) -> None:
+    """Check that files can be written, by the suffixes that each may have, and are none that is read or written."""
+    taken = [path for path in inputs if path is not None]
+    for path, suffixes in outputs:
+        if path is not None:
+            taken.append(check_output(path, suffixes=suffixes, inputs=taken))
+
+
+def read_inputs(source: Source, boundary: Path | None = None, corners: Sequence[int] | None = None) -> Inputs:
+    """Read the scan, and the boundary if one is given; the corners are named by rows of the file."""
+    read = read_scan(source.scan)
+    loop = None if boundary is None else read_loop(boundary)
+    whole = Inputs(read, np.arange(len(read.points)), loop)
+    part = whole if source.component is None else Inputs(read, largest_component(read.points))
+    if source.component is not None and loop is not None:
+        part = replace(part, loop=part.places_of(loop, "boundary points"))
+    return part if corners is None else replace(part, corners=part.places_of(corners, "corners"))
+
+
+def uv_of(read: Scan) -> UV | None:
+    """Return the parameters that a mesh carries, (n, 2), if it does."""
+    if "u" not in read.attributes or "v" not in read.attributes:
+        return None
+    return np.column_stack([read.attributes["u"], read.attributes["v"]]).astype(np.float64)
