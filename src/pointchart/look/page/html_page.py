@@ -64,7 +64,7 @@ class HtmlPage:
         return f"{len(self.text.encode()) / 1e6:.1f} MB, opens offline{thinned}"
 
 
-def lay_out(
+def compose(
     points: Points,
     result: Reconstruction,
     run: dict[str, Any],
@@ -75,7 +75,7 @@ def lay_out(
     deviation: Floats | None = None,
     most: int = MOST_POINTS,
 ) -> HtmlPage:
-    """Lay out the page of a run.
+    """Compose the page of a run.
 
     Parameters
     ----------
