@@ -26,7 +26,7 @@ from rabbit import rabbit
 
 from pointchart.boundary import chord_length_steps, on_circle, order_by_halves
 from pointchart.look.camera import camera
-from pointchart.look.run_pictures import ACCENT, INK, STONE, paint_loop, paint_triangles, paint_wires
+from pointchart.look.paint import ACCENT, INK, STONE, paint_loop, paint_triangles, paint_wires
 from pointchart.map.convex_combination import parameterize
 from pointchart.map.weights import reciprocal_distance
 from pointchart.mesh.delaunay_swaps import swap_to_delaunay

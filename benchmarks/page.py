@@ -12,7 +12,7 @@ from playwright.sync_api import sync_playwright
 import pointchart as pc
 from pointchart import shapes
 from pointchart.clock import StageClock
-from pointchart.look.page import lay_out
+from pointchart.look.page import compose
 from pointchart.report.mesh_facts import mesh_facts
 from pointchart.runs.execution.measured import measure_mesh
 
@@ -38,7 +38,7 @@ def main() -> None:
             points = scan[result.rows]
             run = mesh_facts(measure_mesh(scan, np.arange(len(scan)), result, StageClock()), StageClock(), {})
             start = time.perf_counter()
-            laid = lay_out(points, result, run, title="a scan", command="")
+            laid = compose(points, result, run, title="a scan", command="")
             laid_out = time.perf_counter() - start
             path = Path(folder) / "page.html"
             path.write_text(laid.text, "utf-8")

@@ -15,12 +15,14 @@ import pointchart as pc
 from pointchart import shapes
 from pointchart.agreement.agreed_surface import agreed_patchwork
 from pointchart.boundary.bounded import survey_scan
-from pointchart.look.run_pictures import ACCENT, FAINT, INK, PAPER
+from pointchart.look.camera import rotation
+from pointchart.look.color_scales import LITTLE_TO_MUCH, color_map
+from pointchart.look.paint import ACCENT, FAINT, INK, LIGHT, PAPER, STEEL, STONE
 from pointchart.mesh.assembly import assemble as assembled
 from pointchart.mesh.connectivity import half_edges as pair
+from pointchart.mesh.quality import unit_normals
 
-STEEL = "#3a8fb7"
-SCALE = mpl.colors.LinearSegmentedColormap.from_list("score", [FAINT, STEEL, INK])
+SCALE = color_map(LITTLE_TO_MUCH)
 COPPER = mpl.colors.LinearSegmentedColormap.from_list("height", ["#3b2a20", "#a8693f", "#efd9bd"])
 SIGNED = mpl.colors.LinearSegmentedColormap.from_list("signed", [STEEL, PAPER, ACCENT])
 
@@ -49,11 +51,8 @@ def ring(axes, places, *, color=ACCENT, width=1.6):
 
 def shaded(axes, points, triangles):
     """Paint a mesh from back to front, lit from the upper left."""
-    corner = points[triangles]
-    normal = np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
-    normal /= np.maximum(np.linalg.norm(normal, axis=1), 1e-300)[:, None]
-    light = np.array([-0.45, 0.55, 0.70]) / np.linalg.norm([-0.45, 0.55, 0.70])
-    shade = (0.3 + 0.7 * np.clip(np.abs(normal @ light), 0.0, 1.0))[:, None] * np.array([0.83, 0.77, 0.68])
+    corner, normal = points[triangles], unit_normals(points, triangles)
+    shade = (0.3 + 0.7 * np.clip(np.abs(normal @ LIGHT), 0.0, 1.0))[:, None] * STONE
     order = np.argsort(corner[:, :, 2].mean(axis=1))
     axes.add_collection(
         PolyCollection(corner[order][:, :, :2], facecolors=shade[order], edgecolors=shade[order], linewidths=0.2)
@@ -63,9 +62,7 @@ def shaded(axes, points, triangles):
 
 def turned(points, about_y=0.0, about_x=0.0):
     """Turn points about the vertical and the horizontal axis of the picture, in degrees."""
-    a, b = np.deg2rad(about_y), np.deg2rad(about_x)
-    turn = np.array([[np.cos(a), 0, np.sin(a)], [0, 1, 0], [-np.sin(a), 0, np.cos(a)]])
-    return points @ (np.array([[1, 0, 0], [0, np.cos(b), -np.sin(b)], [0, np.sin(b), np.cos(b)]]) @ turn).T
+    return points @ rotation(about_y, about_x).T
 
 
 @cache

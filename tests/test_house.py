@@ -19,7 +19,7 @@ MODULES = [path for path in SOURCES if path.name not in ("__init__.py", "__main_
 ROOMS = {path.parent.name for path in PACKAGE.glob("*/__init__.py")}
 MOST_FLAT, LONGEST_FILE, LONGEST_TEST, LONGEST_BODY, MOST_PARAMETERS = 10, 250, 500, 40, 8
 # Public functions whose keyword options are the interface.
-MANY_OPTIONS = {"reconstruct", "fit_scan", "fit_bspline", "laser_scan", "draw_mesh", "draw_deviation_map"}
+MANY_OPTIONS = {"reconstruct", "fit_scan", "fit_bspline", "laser_scan"}
 
 
 @pytest.fixture(scope="module")

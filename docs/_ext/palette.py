@@ -2,7 +2,7 @@
 
 import matplotlib as mpl
 
-from pointchart.look.run_pictures import INK, PAPER
+from pointchart.look.paint import INK, PAPER
 
 
 def on_paper(conf: object, name: str) -> None:

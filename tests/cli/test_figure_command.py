@@ -35,7 +35,7 @@ def draw(command_line, tmp_path, monkeypatch):
     write_mesh("bare.ply", CAP.points, CAP.triangles)
     write_mesh("flat.ply", evaluate(FLAT, np.random.default_rng(0).random((300, 2))), none)
     write_surface_json("surface.json", FLAT, BOX, unit="cm")
-    monkeypatch.setattr("pointchart.look.figures.surfaces.GRID", 300)
+    monkeypatch.setattr("pointchart.look.surface_raster.GRID", 300)
     before = set(tmp_path.iterdir())
 
     def call(*words):

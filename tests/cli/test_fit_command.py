@@ -162,7 +162,7 @@ def test_the_report_is_json_of_what_was_done_and_how_far_the_scan_is(run, cap, t
 
 
 def test_pictures_are_drawn_of_deviations_and_reflections(run, cap, tmp_path, monkeypatch):
-    monkeypatch.setattr("pointchart.look.raster.PIXELS", 20_000)
+    monkeypatch.setattr("pointchart.look.surface_pictures.PIXELS", 20_000)
     words = ["--tolerance", "1%", "--picture", "d.png", "--reflections", "r.png"]
     assert run("cap.ply", "-o", "cap.json", *words)[0] == 0
     assert all((tmp_path / name).read_bytes()[:8] == b"\x89PNG\r\n\x1a\n" for name in ("d.png", "r.png"))

@@ -11,11 +11,8 @@ from matplotlib import colors, image
 from matplotlib import pyplot as plt
 
 from pointchart import FormatError, InputError, shapes
-from pointchart.look import raster as scene
-from pointchart.look.camera import camera, upright_axes, upward
 from pointchart.look.figures import Sheet, draw_cloud, draw_deviation_map, draw_mesh, draw_plane, draw_zebra
-from pointchart.look.figures import surfaces as of_surfaces
-from pointchart.look.run_pictures import ACCENT, INK
+from pointchart.look.paint import ACCENT, INK
 from pointchart.surface import BSplineSurface, evaluate
 
 DISC = shapes.disc(400, seed=1)
@@ -48,8 +45,7 @@ LABELS = {"cloud": "score", "plane": "score", "mesh": "score", "deviation": "dev
 def coarse():
     """Look at surfaces through fewer points, on fewer pixels."""
     with pytest.MonkeyPatch.context() as patch:
-        for module in (scene, of_surfaces):
-            patch.setattr(module, "GRID", 300)
+        patch.setattr("pointchart.look.surface_raster.GRID", 300)
         patch.setattr("pointchart.look.figures.sheet.MOST_PIXELS", 60_000)
         yield
     assert plt.get_fignums() == []
@@ -90,9 +86,6 @@ def near(picture, color, within=0.02):
     return np.abs(picture - colors.to_rgb(color)).max(axis=2) <= within
 
 
-# Files
-
-
 def test_a_png_has_the_pixels_of_its_width(tmp_path, figure, kind):
     assert image.imread(figure(kind, ".png")).shape[1] == round(50.0 / PIXEL)
     KINDS[kind](tmp_path / "a.png", sheet=Sheet(25.0, 254.0))
@@ -130,7 +123,7 @@ def test_lines_stay_lines_up_to_a_number_and_become_one_image_beyond(tmp_path, m
     plane = tmp_path / "a.svg"
     draw_plane(plane, DISC.uv, DISC.triangles)
     assert b"<image" not in plane.read_bytes()
-    monkeypatch.setattr("pointchart.look.run_pictures.MOST_SHAPES", 100)
+    monkeypatch.setattr("pointchart.look.paint.MOST_SHAPES", 100)
     draw_plane(plane, DISC.uv, DISC.triangles)
     assert plane.read_bytes().count(b"<image") == 1
 
@@ -159,9 +152,6 @@ def test_a_sheet_that_cannot_be_is_refused(tmp_path, kind, name, sheet, message)
     with pytest.raises((FormatError, InputError), match=message):
         KINDS[kind](tmp_path / name, sheet=sheet)
     assert list(tmp_path.iterdir()) == []
-
-
-# What is drawn
 
 
 @pytest.mark.parametrize("edges", [True, False])
@@ -278,74 +268,6 @@ def test_a_flat_mesh_seen_along_its_plane_is_a_line(tmp_path):
         assert np.count_nonzero(~near(picture, "white", 0.2).all(axis=1)) <= 4
 
 
-# The camera
-
-
-@pytest.mark.parametrize("up", ["x", "y", "z"])
-@pytest.mark.parametrize("view", [None, (0, 0), (30, 20), (-200, 89)])
-def test_a_camera_turns_and_does_not_mirror(up, view):
-    axes = camera(CAP.points, CAP.triangles, view=view, up=up)
-    assert np.allclose(axes @ axes.T, np.eye(3), atol=1e-12)
-    assert np.linalg.det(axes) == pytest.approx(1.0)
-
-
-@pytest.mark.parametrize("up", ["x", "y", "z"])
-def test_the_axis_asked_for_is_upwards_and_the_tilt_looks_down_on_it(up):
-    axis = np.eye(3)["xyz".index(up)]
-    for turn, tilt in ((0, 0), (50, 0), (20, 35)):
-        right, above, towards = camera(CAP.points, view=(turn, tilt), up=up)
-        assert right @ axis == pytest.approx(0.0, abs=1e-12)
-        assert above @ axis == pytest.approx(np.cos(np.deg2rad(tilt)))
-        assert towards @ axis == pytest.approx(np.sin(np.deg2rad(tilt)))
-
-
-@pytest.mark.parametrize("side", [1.0, -1.0])
-def test_cloud_and_mesh_are_seen_from_the_same_outside(side):
-    points = side * CAP.points[:, [2, 0, 1]]
-    cloud = camera(points)
-    mesh = camera(points, CAP.triangles if side > 0 else CAP.triangles[:, ::-1])
-    assert np.allclose(cloud, mesh)
-    assert cloud[2] @ [side, 0.0, 0.0] > 0.85
-
-
-@pytest.mark.parametrize("up", ["x", "y", "z"])
-@pytest.mark.parametrize("sign", [1.0, -1.0])
-def test_a_mesh_that_closes_but_for_an_opening_stands_on_the_axis_of_its_opening(up, sign):
-    bowl, (right, above, towards) = shapes.hemisphere(400, angle=150), upright_axes(up)
-    # Broad to the right, shallow towards us, open upwards or downwards.
-    stretched = np.stack([1.5 * right, 0.8 * towards, sign * above])
-    points = bowl.points @ stretched
-    triangles = bowl.triangles if np.linalg.det(stretched) > 0 else bowl.triangles[:, ::-1]
-    assert upward(points, triangles) == up
-    _, upwards, facing = camera(points, triangles)
-    assert upwards @ above == pytest.approx(np.cos(np.deg2rad(25)))
-    assert facing @ towards > 0.85
-
-
-@pytest.mark.parametrize("up", ["x", "y", "z"])
-def test_what_is_flat_stands_where_it_does_not_lie(up):
-    sheet = DISC.points @ np.stack([*np.delete(np.eye(3), "xyz".index(up), axis=0), np.eye(3)["xyz".index(up)]])
-    assert upward(sheet) == upward(sheet, DISC.triangles) == ("y" if up == "z" else "z")
-
-
-def test_a_mesh_whose_triangles_are_not_turned_alike_is_seen_as_its_cloud_is():
-    mixed = DISC.triangles.copy()
-    mixed[::2] = mixed[::2, ::-1]
-    assert upward(DISC.points, mixed) == upward(DISC.points)
-
-
-@pytest.mark.parametrize("triangles", [np.empty((0, 3), int), np.array([[0, 0, 1]])])
-def test_triangles_without_area_tell_nothing(triangles):
-    assert np.allclose(camera(CAP.points, triangles), camera(CAP.points))
-
-
-def test_a_level_scan_is_seen_from_above():
-    assert camera(DISC.points)[2, 2] > 0.85
-
-
-# Refusals
-
-
 @pytest.mark.parametrize(
     ("draw", "message"),
     [
@@ -391,17 +313,6 @@ def test_a_vertex_in_no_triangle_does_not_matter(tmp_path):
     draw_mesh(tmp_path / "b.png", far, CAP.triangles, edges=False, view=(0, 90), up="z", sheet=SMALL)
     one, other = (image.imread(tmp_path / name)[:, :, 0] < 0.95 for name in ("a.png", "b.png"))
     assert np.count_nonzero(one != other) < 0.01 * np.count_nonzero(one)
-
-
-def test_a_pixel_interpolates_the_place_that_it_shows():
-    raster = scene.rasterize(CAP.points, CAP.triangles, 20_000)
-    height, width = raster.is_seen.shape
-    left, right, bottom, top = raster.box
-    row, column = np.nonzero(raster.is_seen)
-    middle = np.column_stack(
-        [left + (column + 0.5) * (right - left) / width, bottom + (row + 0.5) * (top - bottom) / height]
-    )
-    assert raster.interpolated(CAP.points)[:, :2] == pytest.approx(middle, abs=1e-9)
 
 
 def test_another_scan_is_no_deviation(tmp_path):

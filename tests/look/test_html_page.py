@@ -12,7 +12,7 @@ import pointchart as pc
 from pointchart import shapes
 from pointchart.clock import StageClock
 from pointchart.look.camera import camera
-from pointchart.look.page import lay_out
+from pointchart.look.page import compose
 from pointchart.look.page.colorings import Shade, mesh_shades
 from pointchart.look.page.histograms import quality_histograms
 from pointchart.look.page.pack import packed, quantized, steps
@@ -42,7 +42,7 @@ def page_file(made, tmp_path_factory):
     path = tmp_path_factory.mktemp("page") / "run.html"
     words = {"command": "pointchart mesh 'a b.ply'", "figure": "pointchart figure mesh a.ply -o a.pdf"}
     title = "</script><img src=x onerror=alert(1)>&amp;{{data}}.ply"
-    path.write_text(lay_out(points, result, run, title=title, **words).text, "utf-8")
+    path.write_text(compose(points, result, run, title=title, **words).text, "utf-8")
     return path
 
 
@@ -286,7 +286,7 @@ def test_a_place_to_look_at_comes_to_the_middle_of_both_views(made, browser, tmp
     doubt = {"points": 3, "length": 1.0, "spacings": 9.0, "at_vertex": vertex}
     doubted = run | {"boundary": run["boundary"] | {"doubts": [doubt]}}
     path = tmp_path / "doubt.html"
-    path.write_text(lay_out(points, result, doubted, title="a", command="").text, "utf-8")
+    path.write_text(compose(points, result, doubted, title="a", command="").text, "utf-8")
     page = browser.new_page(viewport={"width": 1000, "height": 800})
     page.goto(path.as_uri())
     page.wait_for_function("document.body.dataset.ready === 'yes'")
@@ -363,7 +363,7 @@ def test_a_thinned_mesh_is_a_disc_with_the_boundary_of_the_whole(made, most):
 
 def test_large_meshes_are_thinned_and_say_so(made):
     points, result, run = made
-    page = lay_out(points, result, run, title="a", command="", most=300)
+    page = compose(points, result, run, title="a", command="", most=300)
     assert (page.n_drawn, page.n_points) == (300, len(points))
     assert page.size_line.endswith(f"300 of {len(points):,} points drawn")
     assert json.loads(re.search(r'id="content">(.*?)</script>', page.text)[1])["drawn"] == 300
@@ -375,7 +375,7 @@ def test_thirty_thousand_points_take_under_five_megabytes():
     points = grid.points[result.rows]
     meshed = measure_mesh(points, np.arange(len(points)), result, StageClock())
     run = mesh_facts(meshed, StageClock(), {})
-    assert len(lay_out(points, result, run, title="a", command="").text.encode()) < 5e6
+    assert len(compose(points, result, run, title="a", command="").text.encode()) < 5e6
 
 
 def test_numbers_are_rounded_to_half_a_level():
@@ -442,14 +442,14 @@ def test_values_that_differ_by_rounding_alone_are_one_colour(values):
 def test_a_regular_grid_has_a_page(made):
     sheet = shapes.grid(40, 30).points
     flat = pc.reconstruct(sheet)
-    assert lay_out(sheet[flat.rows], flat, made[2], title="b\udcffd.xyz", command="").text.encode()
+    assert compose(sheet[flat.rows], flat, made[2], title="b\udcffd.xyz", command="").text.encode()
 
 
 def test_rims_of_open_gaps_are_drawn(made, browser, tmp_path):
     pierced = shapes.pierce(shapes.disc(1200), n_gaps=2, radius_in_spacings=3.5).points
     result = pc.reconstruct(pierced, gaps=pc.leave_gaps_open)
     path = tmp_path / "open.html"
-    path.write_text(lay_out(pierced[result.rows], result, made[2], title="a", command="").text, "utf-8")
+    path.write_text(compose(pierced[result.rows], result, made[2], title="a", command="").text, "utf-8")
     page = browser.new_page()
     page.goto(path.as_uri())
     page.wait_for_function("document.body.dataset.ready === 'yes'")

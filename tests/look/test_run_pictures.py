@@ -6,7 +6,8 @@ from matplotlib import colors, image
 from matplotlib import pyplot as plt
 
 from pointchart import FormatError, shapes
-from pointchart.look.run_pictures import ACCENT, INK, draw_boundary, draw_run
+from pointchart.look.paint import ACCENT, INK
+from pointchart.look.run_pictures import draw_boundary, draw_run
 
 SHEET = shapes.grid(24, 9)
 MARKED = np.isin(np.arange(len(SHEET.points)), SHEET.boundary).astype(float)

@@ -1,20 +1,16 @@
-"""Pictures of surfaces: the law of reflection, and what can be measured on pixels."""
+"""Pictures of surfaces: what can be measured on their pixels."""
 
 from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given
 from matplotlib import colors, image
 from matplotlib import pyplot as plt
-from strategies import rotations
 
 from pointchart import FormatError, InputError
-from pointchart.look import raster as scene
-from pointchart.look.raster import reflection_angles
-from pointchart.look.run_pictures import INK, PAPER
+from pointchart.look.paint import INK, PAPER
 from pointchart.look.surface_pictures import draw_deviation, draw_reflections
-from pointchart.surface import BSplineSurface, Deviation, evaluate, normals
+from pointchart.surface import BSplineSurface, Deviation, evaluate
 
 SIZE = (814, 1650)
 UNIT = np.array([0.0, 0, 1, 1])
@@ -27,14 +23,13 @@ ARCH = BSplineSurface(
 )
 BOX = [np.array([[0.0, 0], [1, 0], [1, 1], [0, 1]])]
 FEET = np.random.default_rng(0).random((400, 2))
-X, Y, Z = np.eye(3)
 
 
 @pytest.fixture
 def coarse(monkeypatch):
     """Sample fewer pixels than are printed."""
-    monkeypatch.setattr(scene, "PIXELS", 60_000)
-    monkeypatch.setattr(scene, "GRID", 1000)
+    monkeypatch.setattr("pointchart.look.surface_pictures.PIXELS", 60_000)
+    monkeypatch.setattr("pointchart.look.surface_raster.GRID", 1000)
 
 
 def deviation_drawn(path, signed, surface=FLAT, **options):
@@ -60,27 +55,6 @@ def inner(picture):
     for shift in (-8, 8):
         near |= np.roll(is_paper, shift, axis=0) | np.roll(is_paper, shift, axis=1)
     return picture[~near]
-
-
-@given(rotations())
-def test_the_angle_of_reflection_is_twice_that_of_the_normal(rotation):
-    angles = np.linspace(-1.5, 1.5, 31)
-    facing = np.stack([np.sin(angles), 0 * angles, np.cos(angles)], axis=1)
-    along, eye = rotation[1], rotation[2]
-    assert np.allclose(reflection_angles(facing @ rotation, eye, along), 2 * angles, rtol=0, atol=1e-12)
-
-
-def test_normals_of_one_slope_reflect_one_line_and_mirrored_ones_the_opposite_line():
-    lift = np.linspace(-0.6, 0.6, 13)
-    facing = np.stack([0 * lift + 0.5, 0 * lift, 0 * lift + 0.8], axis=1) + np.outer(lift, Y)
-    facing /= np.linalg.norm(facing, axis=1)[:, None]
-    assert np.array_equal(reflection_angles(facing * [-1, 1, 1], Z, Y), -reflection_angles(facing, Z, Y))
-    assert (np.diff(reflection_angles(facing, Z, Y)[:7]) < 0.0).all()
-
-
-def test_a_plane_reflects_one_angle_and_a_singular_place_none():
-    assert np.ptp(reflection_angles(normals(FLAT, FEET), Z, X)) == 0.0
-    assert np.isnan(reflection_angles(np.full((1, 3), np.nan), Z, X)).all()
 
 
 @pytest.mark.usefixtures("coarse")

@@ -8,7 +8,7 @@ from threading import RLock
 import numpy as np
 import viser
 
-from ..look.run_pictures import STONE
+from ..look.paint import STONE
 from ..points.neighbors import nearest
 from ..points.stars import normals
 from ..typing import UV, Floats, Indices, Loop, Points, Triangles

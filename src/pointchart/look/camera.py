@@ -1,20 +1,28 @@
 """From where a scan is looked at, by one rule in figures, on pages and in the browser; triangles tell it more."""
 
+from typing import TypedDict
+
 import numpy as np
 
 from ..errors import InputError
 from ..mesh.connectivity import half_edges
 from ..mesh.quality import area_vectors
 from ..typing import Floats, Points, Triangles
-from .run_pictures import rotation
 
 AXES = {"x": 0, "y": 1, "z": 2}  # of the file, that may be upwards; in the order in which they are offered
-OBLIQUE = rotation(-10.0, 25.0)  # out of the view along the mean normal
+ASIDE, ABOVE = -10.0, 25.0  # degrees out of the view along the mean normal, so that relief shows
 FACING = 0.8  # cosine to the line of sight from which on an axis cannot be upwards in the figure
 CLOSING = 0.35  # share of the area of a mesh that its boundary spans, below which it stands like a bust or a foot
 OPEN = 0.01  # the same below which what its boundary spans says nothing, as of a tube
 ONE_SIDED = 0.05  # share of the area of a mesh that has to face one way to tell its outside
 BULGING = 0.15  # correlation of height and squared distance from the middle that tells the outside of a cloud
+
+
+class Standpoint(TypedDict, total=False):
+    """From where a figure is looked at, as for `camera`."""
+
+    view: tuple[float, float] | None
+    up: str | None
 
 
 def camera(
@@ -62,12 +70,12 @@ def camera(
     if view is not None:
         return np.asarray(rotation(-view[0], view[1]) @ upright)
     if _opening(points, triangles) is not None:
-        return np.asarray(OBLIQUE @ _broad_side(points, upright))
+        return np.asarray(oblique() @ _broad_side(points, upright))
     normal = _outside(points, triangles)
     # An axis that is asked for cannot be upwards where we look along it.
     above = np.eye(3)[AXES[name if abs(normal[AXES[name]]) <= FACING else upward(points, triangles)]]
     across = np.cross(above, normal) / np.linalg.norm(np.cross(above, normal))
-    return np.asarray(OBLIQUE @ np.stack([across, np.cross(normal, across), normal]))
+    return np.asarray(oblique() @ np.stack([across, np.cross(normal, across), normal]))
 
 
 def upward(points: Points, triangles: Triangles | None = None) -> str:
@@ -120,6 +128,19 @@ def upright_axes(up: str) -> Floats:
     above = np.eye(3)[AXES[up]]
     right = np.eye(3)[1 if above[0] else 0]
     return np.stack([right, above, np.cross(right, above)])
+
+
+def rotation(about_vertical: float, about_horizontal: float) -> Floats:
+    """Return the matrix that turns a picture about its vertical axis, then about its horizontal one, in degrees."""
+    a, b = np.deg2rad(about_vertical), np.deg2rad(about_horizontal)
+    turn = np.array([[np.cos(a), 0.0, np.sin(a)], [0.0, 1.0, 0.0], [-np.sin(a), 0.0, np.cos(a)]])
+    tilt = np.array([[1.0, 0.0, 0.0], [0.0, np.cos(b), -np.sin(b)], [0.0, np.sin(b), np.cos(b)]])
+    return np.asarray(tilt @ turn)
+
+
+def oblique() -> Floats:
+    """Return the matrix that turns the view along the mean normal a little aside and above."""
+    return rotation(ASIDE, ABOVE)
 
 
 def _opening(points: Points, triangles: Triangles | None) -> Floats | None:

@@ -43,6 +43,52 @@ def area_vectors(points: Points, triangles: Triangles) -> Floats:
     return np.asarray(0.5 * np.cross(b - a, c - a))
 
 
+def unit_normals(points: Points, triangles: Triangles) -> Points:
+    """Return the unit normal of each triangle, (m, 3); zero where one is flat.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> unit_normals(np.array([[0.0, 0, 0], [2, 0, 0], [0, 3, 0]]), np.array([[0, 1, 2], [0, 1, 1]]))
+    array([[0., 0., 1.],
+           [0., 0., 0.]])
+    """
+    vectors = area_vectors(points, triangles)
+    return np.asarray(vectors / np.maximum(np.linalg.norm(vectors, axis=1), 1e-300)[:, None])
+
+
+def vertex_normals(points: Points, triangles: Triangles) -> Points:
+    """Return the unit normal of each point, (n, 3): the mean of its triangles by area; zero where there is none.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> corner = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
+    >>> vertex_normals(corner, np.array([[0, 1, 2], [0, 3, 1]]))[1:].round(3)
+    array([[0.   , 0.707, 0.707],
+           [0.   , 0.   , 1.   ],
+           [0.   , 1.   , 0.   ]])
+    """
+    vectors, total = area_vectors(points, triangles), np.empty_like(points)
+    for k in range(3):
+        total[:, k] = np.bincount(triangles.ravel(), np.repeat(vectors[:, k], 3), len(points))
+    length = np.linalg.norm(total, axis=1, keepdims=True)
+    return np.asarray(total / np.where(length > 0.0, length, 1.0))
+
+
+def heights(points: Points, triangles: Triangles, offsets: Floats) -> Floats:
+    """Measure offsets from the points, (n, 3), along the normals of the mesh there, (n,), positive on their side.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> flat = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0]])
+    >>> heights(flat, np.array([[0, 1, 2]]), np.array([[5.0, 5, 2], [0, 0, -1], [1, 0, 0]]))
+    array([ 2., -1.,  0.])
+    """
+    return np.asarray(np.einsum("ij,ij->i", offsets, vertex_normals(points, triangles)))
+
+
 def areas(points: Points, triangles: Triangles) -> Floats:
     """Measure the area of each triangle, (m,), in the unit of the points squared.
 

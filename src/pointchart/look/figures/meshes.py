@@ -1,7 +1,7 @@
 """Figures of a mesh, in space and in its parameter plane."""
 
 from pathlib import Path
-from typing import Any
+from typing import Unpack
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -10,22 +10,13 @@ from ..._check import check_points, check_triangles, check_uv
 from ...errors import InputError
 from ...io.source import AnyPath
 from ...mesh.connectivity import boundary_loops, half_edges
-from ...typing import UV, Floats, Points, Triangles
-from ..camera import camera
-from ..raster import rasterize, spread
-from ..run_pictures import (
-    MOST_SHAPES,
-    STONE,
-    paint_image,
-    paint_loop,
-    paint_triangles,
-    paint_wires,
-    save,
-    shaded,
-    unit_normals,
-)
-from .clouds import check_values
-from .sheet import COLUMN, Panel, Sheet, check_sheet, image_pixels, lay_out, sequential, show_scale
+from ...mesh.quality import unit_normals
+from ...typing import UV, Points, Triangles
+from ..camera import Standpoint, camera
+from ..color_scales import rgb
+from ..paint import MOST_SHAPES, STONE, paint_image, paint_loop, paint_triangles, paint_wires, save, shaded
+from ..raster import rasterize
+from .sheet import COLUMN, Panel, Sheet, check_sheet, check_values, image_pixels, lay_out, show_values
 
 LINES = 0.05, 0.05, 0.35  # width in edges of the figure; at least and at most in points (1/72 inch)
 LINE_TINT = 0.55  # brightness of an edge over that of its triangle
@@ -40,9 +31,8 @@ def draw_mesh(
     values: ArrayLike | None = None,
     label: str = "value",
     edges: bool | None = None,
-    view: tuple[float, float] | None = None,
-    up: str | None = None,
     sheet: Sheet = COLUMN,
+    **standpoint: Unpack[Standpoint],
 ) -> None:
     """Draw a mesh, shaded; what turns its back to us has another colour.
 
@@ -58,10 +48,10 @@ def draw_mesh(
         What the values are.
     edges : bool, optional
         Whether edges are drawn; by default up to 20,000 triangles. Without them the surface is one image.
-    view, up
-        As for `camera`.
     sheet : Sheet, optional
         By default a column of 85 mm at 300 dpi.
+    view, up
+        As for `camera`.
 
     Raises
     ------
@@ -74,21 +64,21 @@ def draw_mesh(
     cloud = check_points(points, least=3)
     faces = _check_faces(triangles, len(cloud))
     given = None if values is None else check_values(values, len(cloud), label)
-    turned = cloud @ camera(cloud, faces, view=view, up=up).T
+    turned = cloud @ camera(cloud, faces, **standpoint).T
     used = turned[np.unique(faces), :2]
     if (used == used[0]).all():
         raise InputError(f"all {len(used)} points of the triangles are at one place; give a mesh that has an extent")
     panel = lay_out(sheet, used, has_bar=given is not None)
-    scale = None if given is None else _shown_scale(panel, given, label)
+    scale = None if given is None else show_values(panel, given, label)
     if len(faces) <= MOST_SHAPES if edges is None else edges:
-        colors = STONE if given is None else _rgb(scale, given[faces].mean(axis=1))
+        colors = STONE if given is None else rgb(scale, given[faces].mean(axis=1))
         width = _line_width(panel, len(faces))
         paint_triangles(panel.axes, turned, faces, colors, line_width=width, line_tint=LINE_TINT)
     else:
         raster = rasterize(turned, faces, image_pixels(panel, sheet))
-        colors = STONE if given is None else _rgb(scale, raster.interpolated(given))
+        colors = STONE if given is None else rgb(scale, raster.interpolated(given))
         lit = shaded(unit_normals(turned, faces)[raster.which[raster.is_seen]], colors)
-        paint_image(panel.axes, spread(raster.is_seen, lit), raster.box)
+        paint_image(panel.axes, raster.is_seen, lit, raster.box)
     save(panel.figure, Path(path), dpi=sheet.dpi)
 
 
@@ -135,9 +125,9 @@ def draw_plane(
         raise InputError(f"the parameters of all {len(used)} points are the same; parameterize the mesh again")
     panel = lay_out(sheet, used, has_bar=given is not None)
     if given is not None:
-        scale = _shown_scale(panel, given, label)
+        scale = show_values(panel, given, label)
         raster = rasterize(np.c_[plane, np.zeros(len(plane))], faces, image_pixels(panel, sheet))
-        paint_image(panel.axes, spread(raster.is_seen, _rgb(scale, raster.interpolated(given))), raster.box)
+        paint_image(panel.axes, raster.is_seen, rgb(scale, raster.interpolated(given)), raster.box)
     if given is None or len(faces) <= MOST_SHAPES if edges is None else edges:
         paint_wires(panel.axes, plane, faces, line_width=_line_width(panel, len(faces)))
     for loop in boundary_loops(half_edges(faces, len(plane))):
@@ -150,16 +140,6 @@ def _check_faces(triangles: Triangles, n_points: int) -> Triangles:
     if len(faces) == 0:
         raise InputError(f"the mesh has {n_points} points and no triangles; give a mesh, or draw its points as a cloud")
     return faces
-
-
-def _shown_scale(panel: Panel, values: Floats, label: str) -> Any:
-    scale = sequential(values, label)
-    show_scale(panel, scale, label)
-    return scale
-
-
-def _rgb(scale: Any, values: Floats) -> Floats:
-    return np.asarray(scale.to_rgba(values)[:, :3])
 
 
 def _line_width(panel: Panel, n_triangles: int) -> float:

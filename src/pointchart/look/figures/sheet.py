@@ -4,20 +4,20 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ...errors import InputError
 from ...io import check_output
 from ...io.source import AnyPath
 from ...typing import Floats
-from ..run_pictures import FAINT, PICTURE_SUFFIXES, SEQUENTIAL, STONE, number, style_bar
+from ..color_scales import is_logarithmic, sequential, style_bar
+from ..paint import FAINT, PICTURE_SUFFIXES
 
 MILLIMETRE = 1.0 / 25.4  # in inches
-MARGIN, BAR_ROOM, MOST_HEIGHT = 1.0, 11.0, 240.0  # in millimetres
-FLATTEST = 0.05  # height of a panel over its width
+MARGIN, BAR_ROOM, MOST_HEIGHT = 1.0, 11.0, 240.0  # in millimetres: a page of most journals is 240 high within its rims
+FLATTEST = 0.05  # height of a panel over its width: below, a line of text is higher
 MOST_PIXELS = 3_000_000  # of an image, which has up to twice as many each way as are printed
-LABEL = 7.0  # points
-STEPS = np.array([1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0])  # at which scales of colours end
-LARGE_RATIO = 30.0  # of the ends of a scale, from which on it is logarithmic
+LABEL = 7.0  # points: the least that most journals ask for
 
 
 @dataclass(frozen=True, slots=True)
@@ -100,30 +100,9 @@ def image_pixels(panel: Panel, sheet: Sheet) -> int:
     return round(min(wide * high, MOST_PIXELS))
 
 
-def sequential(values: Floats, name: str) -> Any:
-    """Return a map from numbers to colours, whose ends leave out one per cent each; that of not-a-number is stone.
-
-    Raises
-    ------
-    InputError
-        If no value is finite.
-    """
-    from matplotlib.cm import ScalarMappable
-    from matplotlib.colors import LinearSegmentedColormap, LogNorm, Normalize
-
-    known = values[np.isfinite(values)]
-    if len(known) == 0:
-        raise InputError(f"none of the {len(values)} values of '{name}' is finite; choose another colour")
-    low, high = np.percentile(known, [1.0, 99.0])
-    high = high if high > low else low + (abs(low) or 1.0)
-    colors = LinearSegmentedColormap.from_list("little to much", SEQUENTIAL).with_extremes(bad=tuple(STONE.tolist()))
-    ends = LogNorm if low > 0.0 and high > LARGE_RATIO * low else Normalize
-    return ScalarMappable(ends(low, high), colors)
-
-
 def show_scale(panel: Panel, scale: Any, label: str, ticks: list[float] | None = None) -> None:
     """Draw a scale of colours into its place, with ticks where they are given."""
-    from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullLocator
+    from matplotlib.ticker import LogLocator, MaxNLocator, NullLocator
 
     bar = panel.figure.colorbar(scale, cax=panel.bar, orientation="horizontal", extend="both")
     low, high = scale.get_clim()
@@ -131,22 +110,32 @@ def show_scale(panel: Panel, scale: Any, label: str, ticks: list[float] | None =
     if ticks is not None:
         bar.set_ticks(ticks)
     else:
-        is_log = low > 0.0 and high > LARGE_RATIO * low
-        bar.locator = LogLocator(numticks=4) if is_log else MaxNLocator(4)
-    bar.formatter = FuncFormatter(lambda x, _: number(x))
-    bar.update_ticks()
+        bar.locator = LogLocator(numticks=4) if is_logarithmic(low, high) else MaxNLocator(4)
     style_bar(bar, label, size=LABEL)
+    bar.update_ticks()
     bar.ax.tick_params(length=2.0, width=0.4, pad=1.5, color=FAINT)
     bar.ax.xaxis.labelpad = 1.5
 
 
-def round_up(reach: float) -> float:
-    """Return the next number that reads well, from which a scale can end.
+def show_values(panel: Panel, values: Floats, label: str) -> Any:
+    """Choose a scale of colours for values, and draw it into its place."""
+    scale = sequential(values, label)
+    show_scale(panel, scale, label)
+    return scale
 
-    Examples
-    --------
-    >>> round_up(0.0173), round_up(2.0)
-    (0.02, 2.0)
+
+def check_values(values: ArrayLike, n_points: int, label: str) -> Floats:
+    """Return the values of points as (n,) float64; not-a-number is allowed.
+
+    Raises
+    ------
+    InputError
+        If they are no numbers, or there is not one for each point.
     """
-    power = 10.0 ** np.floor(np.log10(reach))
-    return float(f"{STEPS[np.searchsorted(STEPS, reach / power * (1.0 - 1e-9))] * power:.2g}")
+    try:
+        array = np.asarray(values, np.float64)
+    except (TypeError, ValueError) as reason:
+        raise InputError(f"'{label}' is no array of numbers ({reason}); choose another colour") from None
+    if array.shape != (n_points,):
+        raise InputError(f"'{label}' has shape {array.shape}, but there are {n_points} points; give one value for each")
+    return array

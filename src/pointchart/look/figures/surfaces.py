@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TypeAlias
+from typing import Unpack
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -11,18 +11,19 @@ from scipy.spatial import cKDTree
 from ..._check import check_points
 from ...errors import InputError
 from ...io.source import AnyPath
-from ...surface import Surface, closest_parameters, measure_deviation, tessellate
-from ...typing import UV, Floats, Points, Triangles
-from ..camera import camera
-from ..raster import GRID, Scene, look_at_mesh
-from ..run_pictures import save
-from ..surface_pictures import diverging, paint_deviation, paint_lines
-from .sheet import COLUMN, Panel, Sheet, check_sheet, image_pixels, lay_out, round_up, show_scale
-
-Mesh: TypeAlias = tuple[Points, Triangles, UV]
+from ...points.neighbors import search
+from ...surface import Deviation, Surface, closest_parameters, measure_deviation
+from ...typing import Points
+from ..camera import Standpoint, camera
+from ..color_scales import diverging, rgb, round_up
+from ..paint import save
+from ..surface_raster import SurfaceMesh, SurfaceRaster, coarse_mesh, look_at
+from ..surface_shading import paint_deviation, paint_lines
+from .sheet import COLUMN, Panel, Sheet, check_sheet, image_pixels, lay_out, show_scale
 
 ELSEWHERE = 0.1  # of the scan's diagonal: of which half the points are farther away, that surface is not its own
-MOST = 99.0  # per cent of the points whose deviation the scale holds
+MOST = 99.0  # per cent of the points whose deviation the scale holds: all but outliers
+ROUNDING = 1e-12  # of the scan's extent: a scale that is shorter would colour rounding
 
 
 def draw_deviation_map(
@@ -33,9 +34,8 @@ def draw_deviation_map(
     *,
     limit: float | None = None,
     unit: str = "mm",
-    view: tuple[float, float] | None = None,
-    up: str | None = None,
     sheet: Sheet = COLUMN,
+    **standpoint: Unpack[Standpoint],
 ) -> None:
     """Draw how far a scan is from its surface: warm where it is above, on the side of the normal, cold below.
 
@@ -55,10 +55,10 @@ def draw_deviation_map(
         the points are within it.
     unit : str
         Of the scan, such as "mm".
-    view, up
-        As for `camera`.
     sheet : Sheet, optional
         By default a column of 85 mm at 300 dpi.
+    view, up
+        As for `camera`.
 
     Raises
     ------
@@ -71,15 +71,14 @@ def draw_deviation_map(
     if limit is not None and not 0.0 < limit < np.inf:
         raise InputError(f"the limit of the colours is {limit:g}; give a length more than 0, in {unit}")
     cloud = check_points(points)
-    mesh = tessellate(surface, loops, GRID)
-    signed = _deviation(surface, mesh, cloud)
-    _check_same(signed, cloud)
-    within = float(np.percentile(np.abs(signed), MOST))
-    rounding = 1e-12 * float(np.ptp(cloud, axis=0).max())
-    reach = round_up(max(within, rounding)) if limit is None else limit
-    panel, scene = _seen(mesh, view, up, sheet, has_bar=True)
+    mesh = coarse_mesh(surface, loops)
+    deviation = _deviation(surface, mesh, cloud)
+    _check_same(deviation, cloud)
+    rounding = ROUNDING * float(np.ptp(cloud, axis=0).max())
+    reach = round_up(max(deviation.percentile(MOST), rounding)) if limit is None else limit
+    panel, seen = _seen(surface, mesh, sheet, standpoint, has_bar=True)
     scale = diverging(reach)
-    paint_deviation(panel.axes, surface, scene, cloud, scale.to_rgba(signed)[:, :3])
+    paint_deviation(panel.axes, seen, cloud, rgb(scale, deviation.signed))
     show_scale(panel, scale, f"deviation in {unit}", [-reach, 0.0, reach])
     save(panel.figure, Path(path), dpi=sheet.dpi)
 
@@ -89,9 +88,8 @@ def draw_zebra(
     surface: Surface,
     loops: Sequence[ArrayLike],
     *,
-    view: tuple[float, float] | None = None,
-    up: str | None = None,
     sheet: Sheet = COLUMN,
+    **standpoint: Unpack[Standpoint],
 ) -> None:
     """Draw how a surface reflects parallel lines of light: smooth where its curvature is continuous.
 
@@ -102,10 +100,10 @@ def draw_zebra(
     surface : Surface
     loops : sequence of (b, 2) arrays
         Its boundary in the parameter plane, as for `tessellate`.
-    view, up
-        As for `camera`.
     sheet : Sheet, optional
         By default a column of 85 mm at 300 dpi.
+    view, up
+        As for `camera`.
 
     Raises
     ------
@@ -113,23 +111,23 @@ def draw_zebra(
         The file cannot be written.
     """
     check_sheet(path, sheet)
-    panel, scene = _seen(tessellate(surface, loops, GRID), view, up, sheet, has_bar=False)
-    paint_lines(panel.axes, surface, scene)
+    panel, seen = _seen(surface, coarse_mesh(surface, loops), sheet, standpoint, has_bar=False)
+    paint_lines(panel.axes, seen)
     save(panel.figure, Path(path), dpi=sheet.dpi)
 
 
 def _seen(
-    mesh: Mesh, view: tuple[float, float] | None, up: str | None, sheet: Sheet, *, has_bar: bool
-) -> tuple[Panel, Scene]:
+    surface: Surface, mesh: SurfaceMesh, sheet: Sheet, standpoint: Standpoint, *, has_bar: bool
+) -> tuple[Panel, SurfaceRaster]:
     """Frame a surface, and find what is seen of it."""
     points, triangles, _ = mesh
-    axes = camera(points, triangles, view=view, up=up)
+    axes = camera(points, triangles, **standpoint)
     panel = lay_out(sheet, points @ axes[:2].T, has_bar=has_bar)
-    return panel, look_at_mesh(mesh, axes, axes, image_pixels(panel, sheet))
+    return panel, look_at(surface, mesh, axes, axes[2], image_pixels(panel, sheet))
 
 
-def _check_same(signed: Floats, points: Points) -> None:
-    median, diagonal = float(np.median(np.abs(signed))), float(np.hypot.reduce(np.ptp(points, axis=0)))
+def _check_same(deviation: Deviation, points: Points) -> None:
+    median, diagonal = deviation.percentile(50.0), float(np.hypot.reduce(np.ptp(points, axis=0)))
     if median > ELSEWHERE * diagonal:
         raise InputError(
             f"half of the {len(points)} points are {median:.3g} or more away from the surface, and the scan is only "
@@ -137,8 +135,8 @@ def _check_same(signed: Floats, points: Points) -> None:
         )
 
 
-def _deviation(surface: Surface, mesh: Mesh, points: Points) -> Floats:
+def _deviation(surface: Surface, mesh: SurfaceMesh, points: Points) -> Deviation:
     """Measure the signed distance of points from a surface, from the nearest of many points on it."""
     places, _, uv = mesh
-    nearest = cKDTree(places).query(points, workers=-1)[1]
-    return measure_deviation(points, surface, closest_parameters(surface, points, uv[nearest])).signed
+    nearest = search(cKDTree(places), points, 1)[1][:, 0]
+    return measure_deviation(points, surface, closest_parameters(surface, points, uv[nearest]))

@@ -6,7 +6,7 @@ import numpy as np
 
 from ...boundary.bounded import survey_scan
 from ...mesh.distortion import vertex_stretches
-from ...mesh.quality import area_vectors
+from ...mesh.quality import heights
 from ...typing import UV, Floats, Loop, Points, Triangles
 
 SAME = 1e-9  # of the values: what measures differ by on a plane or an even grid, which would fill the whole scale
@@ -87,7 +87,7 @@ def mesh_shades(
     meaning = "from the surface, positive on the side of its normal"
     if deviation is None:
         off = scale * (survey.cloud.points - near.smoothed)[places]
-        deviation = np.einsum("ij,ij->i", off, _vertex_normals(points, triangles))
+        deviation = heights(points, triangles, off)
         meaning = "height over the plane of its neighbours"
     return [
         Shade("deviation", meaning, deviation, is_signed=True),
@@ -105,11 +105,3 @@ def mesh_shades(
         ),
         Shade("boundary score", "0 inside, 1 on the boundary", survey.score().total[places]),
     ]
-
-
-def _vertex_normals(points: Points, triangles: Triangles) -> Floats:
-    vectors, total = area_vectors(points, triangles), np.empty_like(points)
-    for k in range(3):
-        total[:, k] = np.bincount(triangles.ravel(), np.repeat(vectors[:, k], 3), len(points))
-    length = np.linalg.norm(total, axis=1, keepdims=True)
-    return np.asarray(total / np.where(length > 0.0, length, 1.0))

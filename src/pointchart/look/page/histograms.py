@@ -8,6 +8,7 @@ from ...mesh.connectivity import half_edges
 from ...mesh.distortion import conformal_distortions
 from ...mesh.quality import edge_lengths, radius_ratios, smallest_angles
 from ...typing import UV, Floats, Points, Triangles
+from ..color_scales import counted
 
 BINS = 40  # bars: a choice, some pixels each beside the views
 BEYOND = 99.5  # per cent of the values that a histogram without an end shows; the others are in its last bar
@@ -49,5 +50,5 @@ def _histogram(title: str, meaning: str, values: Floats, low: float, high: float
     if high is None:
         finite = values[np.isfinite(values)]
         high = max(float(np.percentile(finite, BEYOND)), low + 1.0) if len(finite) else low + 1.0
-    counts, _ = np.histogram(np.clip(values, low, high), bins=BINS, range=(low, high))
+    counts, _ = counted(values, low, high, BINS)
     return {"title": title, "meaning": meaning, "low": low, "high": high, "counts": counts.tolist()}

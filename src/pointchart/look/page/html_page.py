@@ -19,8 +19,10 @@ from ...io import replacing
 from ...mesh.connectivity import boundary_loops, half_edges
 from ...pipeline import Reconstruction
 from ...report.checks import certificate_checks
-from ...typing import Floats, Indices, Points
+from ...typing import Floats, Indices, Points, Triangles
 from ..camera import camera, upright_axes, upward
+from ..color_scales import BELOW_AND_ABOVE, PALE_TO_DARK, counted
+from ..paint import ACCENT, FAINT, INK, PAPER, STEEL, STONE
 from .colorings import Shade, mesh_shades
 from .histograms import quality_histograms
 from .pack import packed, quantized, steps
@@ -30,6 +32,9 @@ MOST_POINTS = 200_000  # drawn: what a phone turns smoothly, and some 10 MB
 PAGE_SUFFIXES = (".html", ".htm")  # that browsers open as a page
 # What page.html has places for, by name: a page is one file, so that it opens offline.
 PARTS = ("page.css", "unpack.js", "geometry.js", "gl.js", "scene.js", "tell.js", "page.js")
+# What page.css calls the colours of the pictures, in the light.
+PALETTE = f"--paper: {PAPER}; --faint: {FAINT}; --ink: {INK}; --accent: {ACCENT}; --bar: {STEEL};"
+BARS = 60  # of the histogram over a scale of colours: a choice, some pixels each on a phone
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -59,7 +64,7 @@ class HtmlPage:
         return f"{len(self.text.encode()) / 1e6:.1f} MB, opens offline{thinned}"
 
 
-def lay_out(
+def compose(
     points: Points,
     result: Reconstruction,
     run: dict[str, Any],
@@ -70,7 +75,7 @@ def lay_out(
     deviation: Floats | None = None,
     most: int = MOST_POINTS,
 ) -> HtmlPage:
-    """Lay out the page of a run.
+    """Compose the page of a run.
 
     Parameters
     ----------
@@ -98,7 +103,6 @@ def lay_out(
     shown = thin(points, result.triangles, most)
     shades = mesh_shades(points, result.triangles, result.uv, result.loop, deviation=deviation)
     low, extent = points.min(axis=0), float(np.ptp(points, axis=0).max())
-    up = upward(points, result.triangles)
     arrays = {"position": quantized(points[shown.kept], low, extent), **_arrays(result, shown)}
     spacing = next(shade.values for shade in shades if shade.name == "spacing")
     described = []
@@ -110,14 +114,13 @@ def lay_out(
         "title": title,
         "command": command,
         "figure": figure,
-        "up": up,
-        "upright": upright_axes(up).ravel().tolist(),
-        "turn": camera(points, result.triangles, up=up).ravel().tolist(),
+        **_standing(points, result.triangles),
         "made_with": f"pointchart {version('pointchart')}, Python {platform.python_version()}, numpy {np.__version__}",
         "box": {"low": low.tolist(), "extent": extent},
         "drawn": len(shown.kept),
         "arrays": table,
         "shades": described,
+        "stone": STONE.tolist(),
         "checks": [
             {"passed": bool(check.passed), "measured": check.passed is None, "text": check.text}
             for check in certificate_checks(result.certificate)
@@ -127,6 +130,16 @@ def lay_out(
         "run": run,
     }
     return HtmlPage(_filled(title, content, data), len(points), len(shown.kept))
+
+
+def _standing(points: Points, triangles: Triangles) -> dict[str, Any]:
+    """Return how the mesh stands on the page, and from where it is looked at first."""
+    up = upward(points, triangles)
+    return {
+        "up": up,
+        "upright": upright_axes(up).ravel().tolist(),
+        "turn": camera(points, triangles, up=up).ravel().tolist(),
+    }
 
 
 def _arrays(result: Reconstruction, shown: Thinned) -> dict[str, NDArray[Any]]:
@@ -157,12 +170,13 @@ def _described(shade: Shade, kept: Indices) -> tuple[dict[str, Any], NDArray[np.
     placed = shade.placed
     low, high = float(placed.min()), float(placed.max())
     first, last = shade.reach
-    counts, _ = np.histogram(np.clip(placed, first, last), bins=60, range=(first, last))
+    counts, _ = counted(placed, first, last, BARS)
     row = {
         "name": shade.name,
         "meaning": shade.meaning,
         "is_signed": shade.is_signed,
         "is_log": shade.is_log,
+        "colors": BELOW_AND_ABOVE if shade.is_signed else PALE_TO_DARK,
         "range": [low, high],
         "reach": [first, last],
         "counts": counts.tolist(),
@@ -174,6 +188,7 @@ def _filled(title: str, content: dict[str, Any], data: str) -> str:
     """Put everything into the one file; text from outside can end no element."""
     folder = files(__package__) / "assets"
     values = {name: (folder / name).read_text("utf-8") for name in PARTS}
+    values["page.css"] = values["page.css"].replace("{{palette}}", PALETTE)
     values |= {"title": html.escape(title), "data": data}
     values["content"] = json.dumps(content, allow_nan=False).replace("<", "\\u003c")
     return re.sub(r"{{([\w.]+)}}", lambda place: values[place[1]], (folder / "page.html").read_text("utf-8"))

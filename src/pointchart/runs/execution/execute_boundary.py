@@ -10,7 +10,8 @@ from ...boundary.bounded import Survey, survey_scan
 from ...clock import StageClock
 from ...errors import points_called
 from ...io import replacing, write_curves, write_loop
-from ...look.run_pictures import PICTURE_SUFFIXES, draw_boundary
+from ...look.paint import PICTURE_SUFFIXES
+from ...look.run_pictures import draw_boundary
 from ...points.places import place_of
 from ...report.record import Note, RunReport
 from ...typing import Attributes, Loop

@@ -8,7 +8,7 @@ from ... import shapes
 from ...clock import StageClock
 from ...errors import FormatError, OptionError
 from ...io import check_output, replacing, write_mesh
-from ...look.page import lay_out, writing_page
+from ...look.page import compose, writing_page
 from ...look.run_pictures import draw_run
 from ...pipeline import reconstruct
 from ...report.checks import certificate_checks, summary
@@ -32,7 +32,7 @@ def execute(run: DemoRun, clock: StageClock) -> RunReport:
     result = reconstruct(scan, clock=clock)
     meshed = measure_mesh(scan, np.arange(len(scan)), result, clock)
     points, facts = meshed.points, mesh_facts(meshed, clock, options_facts(run))
-    page = lay_out(points, result, facts, title="a simulated laser scan", command=command_line(run))
+    page = compose(points, result, facts, title="a simulated laser scan", command=command_line(run))
     with replacing(cloud) as scan_file, replacing(picture) as picture_file, writing_page(html, page):
         # Each file is in its place only when all of them are written.
         write_mesh(scan_file, scan, np.empty((0, 3), np.int64))

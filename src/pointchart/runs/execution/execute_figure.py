@@ -9,7 +9,6 @@ from ...clock import StageClock
 from ...errors import InputError
 from ...io import Scan, read_scan
 from ...look.figures import (
-    PICTURE_SUFFIXES,
     Sheet,
     draw_cloud,
     draw_deviation_map,
@@ -17,6 +16,7 @@ from ...look.figures import (
     draw_plane,
     draw_zebra,
 )
+from ...look.paint import PICTURE_SUFFIXES
 from ...mesh.distortion import vertex_stretches
 from ...report.record import RunReport, WrittenFile
 from ..figure_run import OF_SURFACES, ON_MESHES, FigureRun

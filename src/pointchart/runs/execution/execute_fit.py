@@ -11,9 +11,9 @@ from ...cad import CAD_SUFFIXES, SURFACE_SUFFIXES, write_surface
 from ...cad.occ import check_extra
 from ...clock import StageClock
 from ...errors import SolveError, points_called
-from ...look.page import PAGE_SUFFIXES, lay_out, writing_page
+from ...look.page import PAGE_SUFFIXES, compose, writing_page
 from ...look.page.html_page import HtmlPage
-from ...look.run_pictures import PICTURE_SUFFIXES
+from ...look.paint import PICTURE_SUFFIXES
 from ...report.as_json import writing_json
 from ...report.mesh_facts import MeshedScan, mesh_facts
 from ...report.mesh_notes import boundary_notes, intersection_notes
@@ -124,7 +124,7 @@ def _page(
         return None
     made, off = replace(surfaced.reconstruction, uv=surfaced.fit.uv), surfaced.deviation.signed
     with clock("page"):
-        return lay_out(meshed.points, made, facts, deviation=off, **page_words(run, run.source.scan, run.files.out))
+        return compose(meshed.points, made, facts, deviation=off, **page_words(run, run.source.scan, run.files.out))
 
 
 def _files(run: FitRun, page: HtmlPage | None) -> list[WrittenFile]:

@@ -4,7 +4,7 @@ from ..._parallel import on_threads
 from ...clock import StageClock
 from ...errors import points_called
 from ...io import MESH_SUFFIXES, check_digits, write_mesh
-from ...look.page import PAGE_SUFFIXES, lay_out, writing_page
+from ...look.page import PAGE_SUFFIXES, compose, writing_page
 from ...look.page.html_page import HtmlPage
 from ...mesh.distortion import vertex_stretches
 from ...pipeline import Reconstruction, reconstruct
@@ -31,7 +31,7 @@ def execute(run: MeshRun, clock: StageClock) -> RunReport:
         facts, page = mesh_facts(meshed, clock, options_facts(run)), None
         if run.told.html is not None:
             with clock("page"):
-                page = lay_out(meshed.points, result, facts, **page_words(run, run.source.scan, run.out))
+                page = compose(meshed.points, result, facts, **page_words(run, run.source.scan, run.out))
         attributes = _attributes(run, inputs, meshed)
         with writing_json(run.told.report, facts), writing_page(run.told.html, page):
             said = write_mesh(run.out, meshed.points, result.triangles, uv=result.uv, attributes=attributes)

@@ -44,7 +44,7 @@ def untold(**paths: Path | None) -> list[WrittenFile]:
 
 
 def page_words(run: Run, scan: Path, out: Path) -> dict[str, Any]:
-    """Return what a page says of a run besides its result: as `lay_out` takes it."""
+    """Return what a page says of a run besides its result: as `compose` takes it."""
     return {"title": page_title(scan, out), "command": command_line(run), "figure": figure_line(out, scan)}
 
 

@@ -1,11 +1,10 @@
 // The hands on both views, and the beginning.
 
-const SEQUENTIAL = ["#f6ead2", "#c9d6a3", "#61a5a9", "#2a6f97", "#1d3557"];
-const DIVERGING = ["#12344f", "#2a6f97", "#8fbcd4", "#f4efe4", "#eba98f", "#c8553d", "#7a2416"];
 const THEMES = ["light", "dark"];
+const HINT = $("readout").textContent;
 
 function colorsOf(shade) {
-  const stops = (shade.is_signed ? DIVERGING : SEQUENTIAL).map(rgb), colors = new Uint8Array(4 * 256);
+  const stops = shade.colors.map(rgb), colors = new Uint8Array(4 * 256);
   for (let k = 0; k < 256; k++) {
     const place = (k / 255) * (stops.length - 1), at = Math.min(Math.floor(place), stops.length - 2), t = place - at;
     for (let c = 0; c < 3; c++) colors[4 * k + c] = Math.round(255 * ((1 - t) * stops[at][c] + t * stops[at + 1][c]));
@@ -51,7 +50,7 @@ function light(scene, arrays, vertex) {
   const readout = $("readout");
   if (readout.dataset.vertex === String(vertex === null ? "" : arrays.row[vertex])) return;
   readout.dataset.vertex = vertex === null ? "" : arrays.row[vertex];
-  if (vertex === null) return void (readout.textContent = "Point at the mesh or the plane: the same point lights up in both.");
+  if (vertex === null) return void (readout.textContent = HINT);
   const { low, extent } = content.box, place = [0, 1, 2].map((d) => low[d] + (extent * arrays.position[3 * vertex + d]) / 65535);
   const uv = [0, 1].map((d) => arrays.uv[2 * vertex + d]);
   const parts = [["point", String(arrays.row[vertex])], ["x y z", fine(place, extent / 3e4)], ["u v", fine(uv, scene.plane.radius / 1e6)]];

@@ -180,7 +180,7 @@ class Scene {
       gl.scissor(...corner);
       this._use(which, this.matrix(which), 0);
       gl.uniform1i(this.places.mode, this.options.shade ? 3 : 2);
-      gl.uniform4f(this.places.plain, 0.83, 0.77, 0.68, 1);
+      gl.uniform4f(this.places.plain, ...content.stone, 1);
       gl.uniform2f(this.places.reach, ...this.options.reach);
       this._elements(this.faceBuffer, gl.TRIANGLES, this.arrays.triangles.length);
       gl.uniform1i(this.places.mode, 0);
