@@ -24,7 +24,7 @@ from ..camera import camera, upright_axes, upward
 from .colorings import Shade, mesh_shades
 from .histograms import quality_histograms
 from .pack import packed, quantized, steps
-from .thinned import thin
+from .thinned import Thinned, thin
 
 MOST_POINTS = 200_000  # drawn: what a phone turns smoothly, and some 10 MB
 PAGE_SUFFIXES = (".html", ".htm")  # that browsers open as a page
@@ -97,17 +97,9 @@ def lay_out(
     title = title.encode("utf-8", "replace").decode()  # names of files may hold other bytes
     shown = thin(points, result.triangles, most)
     shades = mesh_shades(points, result.triangles, result.uv, result.loop, deviation=deviation)
-    loops = [shown.along(loop) for loop in boundary_loops(half_edges(result.triangles, len(points)))]
     low, extent = points.min(axis=0), float(np.ptp(points, axis=0).max())
     up = upward(points, result.triangles)
-    arrays: dict[str, NDArray[Any]] = {
-        "position": quantized(points[shown.kept], low, extent),
-        "uv": result.uv[shown.kept].astype(np.float32),
-        "triangles": steps(shown.triangles.ravel()),
-        "loop": steps(np.concatenate(loops)),
-        "loop_sizes": np.array([len(loop) for loop in loops], np.uint32),
-        "row": steps(result.rows[shown.kept]),
-    }
+    arrays = {"position": quantized(points[shown.kept], low, extent), **_arrays(result, shown)}
     spacing = next(shade.values for shade in shades if shade.name == "spacing")
     described = []
     for shade in shades:
@@ -135,6 +127,18 @@ def lay_out(
         "run": run,
     }
     return HtmlPage(_filled(title, content, data), len(points), len(shown.kept))
+
+
+def _arrays(result: Reconstruction, shown: Thinned) -> dict[str, NDArray[Any]]:
+    """Return what the page draws of a mesh, but for the places of its points."""
+    loops = [shown.along(loop) for loop in boundary_loops(half_edges(result.triangles, len(result.rows)))]
+    return {
+        "uv": result.uv[shown.kept].astype(np.float32),
+        "triangles": steps(shown.triangles.ravel()),
+        "loop": steps(np.concatenate(loops)),
+        "loop_sizes": np.array([len(loop) for loop in loops], np.uint32),
+        "row": steps(result.rows[shown.kept]),
+    }
 
 
 def _places(points: Points, run: dict[str, Any]) -> list[dict[str, Any]]:
