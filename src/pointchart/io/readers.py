@@ -6,7 +6,7 @@ from pathlib import Path
 from ..errors import FormatError
 from .arrays import read_npy, read_npz
 from .glb import read_glb
-from .laser_files import read_e57, read_las
+from .laser import read_e57, read_las
 from .obj import read_obj
 from .off import read_off
 from .ply import read_ply
