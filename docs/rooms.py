@@ -159,10 +159,10 @@ def drawing() -> str:
 
 
 def _line(x: float, above: Stop, to_x: float, below: Stop) -> str:
-    is_room = above[1] == above[2], below[1] == below[2]
-    y, to_y = _middle(above) + 0.5 * HEIGHT * is_room[0], _middle(below) - 0.5 * HEIGHT * is_room[1]
+    y, to_y = _middle(above) + 0.5 * HEIGHT, _middle(below) - 0.5 * HEIGHT
     bend = 0.5 * (y + to_y)
     path = f"M{x:.0f} {y:.0f}C{x:.0f} {bend:.0f} {to_x:.0f} {bend:.0f} {to_x:.0f} {to_y:.0f}"
+    path += f"v{HEIGHT}" if below[1] != below[2] else ""  # down its lane, straight
     return f'<path d="{path}" fill="none" stroke="{ACCENT}" stroke-width="1.5"/>'
 
 

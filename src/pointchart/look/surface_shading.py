@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 from scipy.spatial import cKDTree
 
-from ..points.neighbors import search
+from ..points.trees import search
 from ..surface import evaluate, normals
 from ..typing import Floats, Points
 from .color_scales import rgb

@@ -11,7 +11,7 @@ from scipy.spatial import cKDTree
 from ..._check import check_points
 from ...errors import InputError
 from ...io.source import AnyPath
-from ...points.neighbors import search
+from ...points.trees import search
 from ...surface import Deviation, Surface, closest_parameters, measure_deviation
 from ...typing import Points
 from ..camera import Standpoint, camera
