@@ -8,6 +8,7 @@ from ..typing import Floats, Keys, Points
 
 TIE_BREAK = 1e-2  # spacings, a choice: over the rounding of grids in files, under what changes stars that have no ties
 MANTISSA, EXPONENT = np.uint64(52), np.uint64(0x7FF)  # bits of a double: places of the one, mask of the other
+ZERO = np.uint64(2**64 - 1)  # in place of the bits of 0: those of a scaled power of two may be 0
 GOLDEN = 0x9E3779B97F4A7C15  # 2^64 over the golden ratio: the step of SplitMix64 from one number to the next
 
 
@@ -30,7 +31,7 @@ def tie_keys(points: Points) -> Keys:
         largest = (bits >> MANTISSA & EXPONENT).max(axis=0) << MANTISSA
         key = np.zeros(last - first, np.uint64)
         for axis in range(3):
-            key = _mixed(key + np.where(bits[axis] == 0, bits[axis], bits[axis] - largest), axis + 1)
+            key = _mixed(key + np.where(bits[axis] == 0, ZERO, bits[axis] - largest), axis + 1)
         keys[first:last] = key
 
     over_ranges(find, len(points))
