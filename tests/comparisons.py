@@ -1,6 +1,7 @@
 """What tests of several stages make meshes into, and compare them by."""
 
 import numpy as np
+from scipy.spatial import cKDTree
 
 from pointchart.mesh.connectivity import half_edges
 from pointchart.plane.exact_signs import orientation_signs
@@ -55,3 +56,26 @@ def mixed(triangles, rng):
     is_turned = rng.random(len(mixed)) < 0.5
     mixed[is_turned] = mixed[is_turned, ::-1]
     return mixed
+
+
+def as_cycle(loop):
+    loop = np.asarray(loop)
+    return np.roll(loop, -int(np.argmin(loop))).tolist()
+
+
+def either_way(loop):
+    return sorted([as_cycle(loop), as_cycle(loop[::-1])])
+
+
+def farthest(points, others):
+    """Return the largest distance of a point from the nearest of some others."""
+    return cKDTree(others).query(points)[0].max()
+
+
+def oriented(triangles):
+    turn = np.argmin(triangles, axis=1)[:, None]
+    return set(map(tuple, np.take_along_axis(triangles, (turn + np.arange(3)) % 3, axis=1).tolist()))
+
+
+def in_rows(result):
+    return oriented(result.rows[result.triangles])

@@ -5,10 +5,10 @@ from hypothesis import strategies as st
 from strategies import clouds, rotations, seeds
 
 from pointchart.errors import InputError
-from pointchart.points.neighbors import BoxTree, ball, from_pairs, nearest, rectangular, spacing
+from pointchart.points.neighbors import BoxTree, Neighborhoods, ball, from_pairs, nearest, rectangular, spacing
 from pointchart.points.stars import delaunay_star, normals
 from pointchart.points.ties import break_ties
-from pointchart.shapes import bent_sheet, disc, grid, hemisphere
+from pointchart.shapes import bent_sheet, disc, grid, hemisphere, relief
 
 
 def rows_of(neighborhoods):
@@ -207,3 +207,12 @@ def test_pairs_are_gathered_by_their_centre():
     assert hood.sizes.tolist() == [2, 0, 1, 0]
     assert hood.rows.tolist() == [0, 0, 2]
     assert hood.n_points == 4
+
+
+@pytest.mark.parametrize("kind", [np.int32, np.int64, np.uint32])
+def test_a_table_has_the_rows_of_the_neighbourhoods_in_the_same_types_always(kind):
+    around = nearest(relief(60, seed=3).points, 9)
+    indptr, indices = Neighborhoods(around.indptr.astype(kind), around.indices.astype(kind)).table
+    assert (indptr.dtype, indices.dtype) == (np.uint64, np.uint32)
+    assert np.array_equal(indptr, around.indptr)
+    assert np.array_equal(indices, around.indices)

@@ -1,0 +1,15 @@
+"""Arguments for every compiled kernel, in a module for each room of the kernels."""
+
+from kernel_cases import agreement, boundary, map, mesh, plane, points, proof, solve, surface
+
+CASES = (
+    agreement.CASES
+    | boundary.CASES
+    | map.CASES
+    | mesh.CASES
+    | plane.CASES
+    | points.CASES
+    | proof.CASES
+    | solve.CASES
+    | surface.CASES
+)
