@@ -25,7 +25,7 @@ from windows import (
 )
 
 import pointchart as pc
-from pointchart import PointchartError, read_scan
+from pointchart import PointchartError, read_scan, survey_scan
 from pointchart.app import boundary_step
 from pointchart.app.boundary_step import DROP, INSERT, OUTER
 from pointchart.app.loop_by_hand import LoopByHand
@@ -88,16 +88,18 @@ def test_a_wrong_loop_is_mended_by_picking_and_the_mesh_exported_and_certified(
 
 
 def test_the_boundary_is_found_and_points_in_a_polygon_that_is_dragged_are_dropped_and_added_again(window, page):
+    survey = survey_scan(RELIEF.points)
+    found = survey.cloud.rows[survey.loop]
     tab(window, "Boundary")
     press(window, "Find the boundary")
-    window.get_by_text(f"a loop of {len(TRUE)} points").wait_for()
-    until(lambda: is_same_loop(page.hand.loop, TRUE) and not page.hand.is_own)
+    window.get_by_text(f"a loop of {len(found)} points").wait_for()
+    until(lambda: is_same_loop(page.hand.loop, found) and not page.hand.is_own)
     page.views.look_at("boundary scores")
     (client,) = page.server.get_clients().values()
-    before = project(page.drawing.places[TRUE], page.drawing.camera(client))
+    before = project(page.drawing.places[found], page.drawing.camera(client))
     triangle = np.array([[0.02, 0.02], [0.02, 0.98], [0.6, 0.5]])
-    within = TRUE[is_inside([triangle], before)]
-    assert 3 < len(within) < len(TRUE) // 2
+    within = found[is_inside([triangle], before)]
+    assert 3 < len(within) < len(found) // 2
     for what, gone in (("Drop", within), ("Add", [])):
         drag_with_shift(window, page, triangle)
         window.get_by_text(
@@ -105,14 +107,14 @@ def test_the_boundary_is_found_and_points_in_a_polygon_that_is_dragged_are_dropp
         ).wait_for()
         press(window, what)
         until(lambda: not page.server.scene.get_handle_by_name("/cloud/selected"))
-        assert set(TRUE) - set(page.hand.loop) == set(gone)
-    after = project(page.drawing.places[TRUE], page.drawing.camera(client))
+        assert set(found) - set(page.hand.loop) == set(gone)
+    after = project(page.drawing.places[found], page.drawing.camera(client))
     assert np.array_equal(after, before), "the camera has stayed"
-    assert is_same_loop(page.hand.loop, TRUE)
+    assert is_same_loop(page.hand.loop, found)
     press(window, "Reverse")
-    until(lambda: is_same_loop(page.hand.loop, reversed_loop(TRUE)))
+    until(lambda: is_same_loop(page.hand.loop, reversed_loop(found)))
     press(window, "Found loop")
-    until(lambda: is_same_loop(page.hand.loop, TRUE))
+    until(lambda: is_same_loop(page.hand.loop, found))
 
 
 @pytest.mark.parametrize(

@@ -7,8 +7,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from pointchart import certify, find_boundary, read_loop, read_scan, shapes, write_loop
+from pointchart import certify, read_loop, read_scan, shapes, write_loop
 from pointchart.boundary import bounded as survey
+from pointchart.boundary.find import search_boundary
 
 FAR = shapes.grid(6, 5).points + np.array([0, 0, 50])
 
@@ -307,7 +308,7 @@ def test_a_loop_that_did_not_do_is_reported_by_the_rows_of_the_file(run, monkeyp
     # Were the rim of a gap taken for the boundary, the mesh would have to bridge the longer one.
     cap = shapes.hemisphere(2000).points
     np.save(tmp_path / "scan.npy", np.r_[FAR, cap[np.linalg.norm(cap - [0, 0, 1], axis=1) > 0.2]])
-    monkeypatch.setattr(survey, "find_boundary", lambda *a, **k: find_boundary(*a, **k).beginning_with(1))
+    monkeypatch.setattr(survey, "search_boundary", lambda *given: search_boundary(*given).beginning_with(1))
     code, _, err = run("mesh", "scan.npy", "-o", "m.ply", "--component", "largest", "--report", "run.json")
     assert code == 0
     boundary = json.loads(Path("run.json").read_text())["boundary"]

@@ -46,6 +46,7 @@ def parameterize_scan(
 
     Examples
     --------
+    >>> import numpy as np
     >>> from pointchart import shapes
     >>> survey, mapped = parameterize_scan(shapes.grid(12, 9).points)
     >>> bool(np.linalg.norm(mapped.uv, axis=1).max() < 1.0 + 1e-12)
