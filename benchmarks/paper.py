@@ -21,7 +21,8 @@ import scipy.sparse as sp
 from paper_scans import DATA, METHODS, PAPER, TOLERANCE, Run, Scan, from_truth, load_scans, run, stars
 from scipy.spatial import cKDTree
 
-from pointchart.boundary.layout import chord_length_steps, on_circle
+from pointchart.boundary.layout import on_circle
+from pointchart.boundary.steps import chord_length_steps
 from pointchart.mesh.connectivity import half_edges
 from pointchart.mesh.delaunay_swaps import swap_to_delaunay
 from pointchart.mesh.distortion import least_distance

@@ -9,7 +9,8 @@ from time import perf_counter
 import numpy as np
 import scipy.sparse as sp
 
-from pointchart.boundary.layout import chord_length_steps, on_circle
+from pointchart.boundary.layout import on_circle
+from pointchart.boundary.steps import chord_length_steps
 from pointchart.errors import InputError
 from pointchart.io import read_loop, read_scan
 from pointchart.map.convex_combination import parameterize

@@ -12,7 +12,8 @@ import pytest
 import scipy.sparse as sp
 from scipy.spatial import cKDTree
 
-from pointchart.boundary.layout import chord_length_steps, on_circle
+from pointchart.boundary.layout import on_circle
+from pointchart.boundary.steps import chord_length_steps
 from pointchart.io import read_loop, read_scan
 from pointchart.map.convex_combination import Parameterization, parameterize
 from pointchart.map.weights import reciprocal_distance, shape_preserving, uniform

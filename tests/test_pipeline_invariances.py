@@ -1,3 +1,5 @@
+import sys
+
 import numpy as np
 import pytest
 from comparisons import edges_of, f1, in_rows, oriented
@@ -7,6 +9,7 @@ from scans import SIMULATED
 from strategies import rotations, seeds
 
 from pointchart import bridge_gaps, leave_gaps_open, reconstruct, shapes
+from pointchart._check import check_points
 
 
 @pytest.mark.parametrize(
@@ -80,3 +83,22 @@ def test_the_numbering_changes_no_hole(seed):
     order = np.random.default_rng(seed).permutation(len(scan.points))
     mixed = reconstruct(scan.points[order], gaps=leave_gaps_open)
     assert oriented(order[mixed.triangles]) == in_rows(reconstruct(scan.points, gaps=leave_gaps_open))
+
+
+# The door
+
+
+def test_a_scan_is_looked_at_once_and_its_distinct_points_once(monkeypatch):
+    looked_at = []
+
+    def counted(points, least=4):
+        looked_at.append(len(points))
+        return check_points(points, least)
+
+    for module in list(sys.modules.values()):
+        if module.__name__.startswith("pointchart.") and getattr(module, "check_points", None) is check_points:
+            monkeypatch.setattr(module, "check_points", counted)
+    shape = SIMULATED["relief"]()
+    result = reconstruct(np.concatenate([shape.points, shape.points[:9]]))
+    n = len(shape.points)
+    assert looked_at == [n + 9, n, len(result.loop)]  # the last where the boundary is laid out

@@ -69,11 +69,8 @@ from .solve.algebraic_multigrid import multigrid as multigrid
 from .points.neighborhoods import Neighborhoods as Neighborhoods
 from .points.neighbors import ball as ball, nearest as nearest, spacing as spacing
 from .map.convex_combination import Parameterization as Parameterization, parameterize as parameterize
-from .pipeline import (
-    Reconstruction as Reconstruction,
-    parameterize_scan as parameterize_scan,
-    reconstruct as reconstruct,
-)
+from .pipeline import Reconstruction as Reconstruction, reconstruct as reconstruct
+from .map.scan_parameters import parameterize_scan as parameterize_scan
 from .points.cloud import Cloud as Cloud, prepare as prepare
 from .mesh.quality import radius_ratios as radius_ratios
 from .mesh.distortion import (
@@ -96,12 +93,8 @@ from .map.protrusions import parameterize_open as parameterize_open
 from .solve.systems import Solution as Solution, solve_fixed as solve_fixed
 from .solve.krylov import bicgstab as bicgstab, conjugate_gradient as conjugate_gradient
 from .solve.factors import cholesky as cholesky, direct as direct
-from .points.stars import (
-    delaunay_star as delaunay_star,
-    nearest_star as nearest_star,
-    normals as normals,
-    smooth as smooth,
-)
+from .points.stars import delaunay_star as delaunay_star, nearest_star as nearest_star
+from .points.planes import normals as normals, smooth as smooth
 from .cad import (
     read_cad as read_cad,
     read_surface_json as read_surface_json,

@@ -1,15 +1,13 @@
 """The whole way from points to a certified disc: the stages in order."""
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ._check import check_neighbors
 from .boundary import Candidate, chord_length_on_circle
-from .boundary.bounded import Survey, survey_scan
+from .boundary.bounded import survey_scan
 from .chart.on_mesh import uv_on_mesh
 from .chart.rule import ChartRule, as_chart
 from .chart.straight_sides import swap_off_sides
@@ -18,22 +16,21 @@ from .errors import PointchartError, points_called
 from .gaps.bridges import Bridge, open_gaps
 from .gaps.rules import GapRule, bridge_gaps, refuse_second_boundary
 from .gaps.trials import Trial, first_sound, swap_on
-from .map.convex_combination import Parameterization, map_points
-from .map.weights import WeightScheme, mean_value
+from .map.convex_combination import Parameterization
+from .map.scan_parameters import Connect, LayoutRule
+from .map.weights import WeightScheme
 from .mesh.delaunay_swaps import swap_to_delaunay
 from .mesh.make import MeshCounts
 from .mesh.swap_rule import SwapRule, as_swaps
-from .mesh.ways import Connect, Way, default_stars, make_mesh
+from .mesh.ways import Way, make_mesh
 from .plane.polygons import check_layout
 from .points.cloud import Cloud
 from .proof.certificate import Certificate, check_proof, prove
 from .solve.solver import Solver
 from .solve.systems import Solution
-from .typing import UV, Indices, Loop, Points, Triangles
+from .typing import UV, Indices, Loop, Triangles
 
 TRIALS = 3  # loops tried, the best first, until a mesh is sound: on no scan of the evaluation was a later one right
-
-LayoutRule = Callable[[Points, Loop], UV]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -187,48 +184,6 @@ def reconstruct(
             check_proof(proof, is_one_to_one=charted.is_one_to_one)
     trial = replace(trial, meshed=meshed)
     return _in_rows(cloud, trial, triangles, mapped, proof)
-
-
-def parameterize_scan(
-    points: ArrayLike,
-    loop: ArrayLike | None = None,
-    *,
-    outer: ArrayLike | None = None,
-    connect: Connect | None = None,
-    weights: WeightScheme | None = None,
-    layout: LayoutRule = chord_length_on_circle,
-    solver: Solver | None = None,
-    clock: StageClock | None = None,
-) -> tuple[Survey, Parameterization]:
-    """Give a scan the parameters of the paper, without a mesh.
-
-    Takes what `reconstruct` takes; `connect` gives the Delaunay stars of the 20 nearest points, if not given.
-
-    Returns
-    -------
-    Survey
-    Parameterization
-        In the order of ``survey.cloud``; ``cloud.rows`` are the rows of the scan.
-
-    Examples
-    --------
-    >>> from pointchart import shapes
-    >>> survey, mapped = parameterize_scan(shapes.grid(12, 9).points)
-    >>> bool(np.linalg.norm(mapped.uv, axis=1).max() < 1.0 + 1e-12)
-    True
-    """
-    clock = clock or StageClock()
-    survey = survey_scan(points, loop, outer=outer, clock=clock)
-    cloud, rim = survey.cloud.points, survey.loop
-    boundary_uv = check_layout(layout(survey.scan, survey.cloud.rows[rim]), rim)
-    with points_called(survey.cloud.rows):
-        with clock("neighbours"):
-            neighborhoods = (connect or default_stars)(cloud * survey.cloud.scale)
-        with clock("map"):
-            weights = weights or mean_value
-            check_neighbors(neighborhoods.indices, neighborhoods.n_points, len(cloud))
-            mapped = map_points(cloud, rim, boundary_uv, neighborhoods, weights=weights, solver=solver)
-    return survey, mapped
 
 
 def _in_rows(

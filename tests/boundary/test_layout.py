@@ -4,17 +4,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from strategies import rotations, seeds
 
-from pointchart.boundary.layout import (
-    centripetal_steps,
-    chord_length_steps,
-    on_circle,
-    on_polygon,
-    on_square,
-    quarter_places,
-    reversed_loop,
-    sharpest_places,
-    uniform_steps,
-)
+from pointchart.boundary.corners import quarter_places, sharpest_places
+from pointchart.boundary.layout import on_circle, on_polygon, on_square, reversed_loop
+from pointchart.boundary.steps import centripetal_steps, chord_length_steps, uniform_steps
 from pointchart.errors import InputError
 from pointchart.shapes import bent_sheet, grid, relief
 

@@ -17,7 +17,7 @@ from kernel_cases.samples import (
     ints,
     mixed_draft,
 )
-from pointchart._kernels.agreement import agreed_triangles
+from pointchart._kernels.agreement import agreed_triangles, manifold_patches
 from pointchart._kernels.unsigned import unsigned
 from pointchart.shapes import moebius
 
@@ -49,7 +49,7 @@ def untaken():
 def taken(first=0):
     """Return the triangles of the strip, of which those up to some are taken."""
     arguments = untaken()
-    agreed_triangles.keep_manifold.py_func(arguments[0], np.arange(first or len(FACES)), *arguments[2:])
+    manifold_patches.keep_manifold.py_func(arguments[0], np.arange(first or len(FACES)), *arguments[2:])
     return arguments
 
 
@@ -82,7 +82,7 @@ CASES = {
     ),
     "agreed_triangles.add_corner_angles": lambda: (SHAPE.points, unsigned(RAGGED.triangles), np.zeros(N)),
     "agreed_triangles.circumradius": lambda: (SHAPE.points, 0, 1, 2),
-    "agreed_triangles.close_up": lambda: (
+    "manifold_patches.close_up": lambda: (
         RAGGED.sides.copy(),
         np.arange(M - 7) % 3 == 0,
         np.cumsum(np.arange(M - 7) % 3 > 0, dtype=np.int32) - 1,
@@ -107,7 +107,7 @@ CASES = {
         N,
         np.zeros(len(STAR.indices), np.int8),
     ),
-    "agreed_triangles.draw_tight": lambda: (
+    "rim_walks.draw_tight": lambda: (
         SHAPE.points,
         RAGGED.triangles,
         RAGGED.ends,
@@ -118,24 +118,24 @@ CASES = {
         int32s(N_EDGES + 2 * M),
         bools(M - 7),
     ),
-    "agreed_triangles.join_alike": lambda: joining(9),
-    "agreed_triangles.join_alike full": lambda: joining(len(FACES) - 1),
-    "agreed_triangles.join_alike twisted": lambda: joining(len(FACES) - 3),
-    "agreed_triangles.keep_manifold": lambda: untaken(),
+    "manifold_patches.join_alike": lambda: joining(9),
+    "manifold_patches.join_alike full": lambda: joining(len(FACES) - 1),
+    "manifold_patches.join_alike twisted": lambda: joining(len(FACES) - 3),
+    "manifold_patches.keep_manifold": lambda: untaken(),
     "agreed_triangles.name_edges": lambda: (
         FACES,
         ints(len(STRIP.points) + 1),
         int32s((3 * len(FACES), 2)),
         int32s(FACES.shape),
     ),
-    "agreed_triangles.put_beside": lambda: (RAGGED.sides.copy(), int(np.flatnonzero(RAGGED.sides[:, 1] < 0)[0]), 5),
-    "agreed_triangles.root_of": lambda: (
+    "manifold_patches.put_beside": lambda: (RAGGED.sides.copy(), int(np.flatnonzero(RAGGED.sides[:, 1] < 0)[0]), 5),
+    "manifold_patches.root_of": lambda: (
         np.array([0, 0, 1, 2, 3], np.int32),
         np.array([False, True, True, False, True]),
         4,
     ),
-    "agreed_triangles.turn_alike": lambda: (taken()[0], taken()[3], *taken()[5:]),
-    "agreed_triangles.walk_rims": lambda: (
+    "manifold_patches.turn_alike": lambda: (taken()[0], taken()[3], *taken()[5:]),
+    "rim_walks.walk_rims": lambda: (
         RAGGED.ends,
         RAGGED.edge_of,
         RAGGED.sides,

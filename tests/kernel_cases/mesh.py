@@ -17,7 +17,7 @@ from kernel_cases.samples import (
     ints,
     mixed_draft,
 )
-from pointchart._kernels.mesh import drafts, pockets, put_back, recover_edges
+from pointchart._kernels.mesh import drafts, pinches, put_back, recover_edges
 from pointchart._kernels.unsigned import unsigned
 from pointchart.mesh.connectivity import half_edges, one_rings
 from pointchart.shapes import disc
@@ -42,7 +42,7 @@ AHEAD[SHAPE.boundary], BEHIND[SHAPE.boundary] = np.roll(SHAPE.boundary, -1), np.
 
 def rims_of(edges):
     numbers = int32s(len(edges.twins))
-    pockets.mark_rims.py_func(edges.twins, numbers)
+    pinches.mark_rims.py_func(edges.twins, numbers)
     return numbers
 
 
@@ -53,7 +53,7 @@ def pocket_of(edges):
     loop = []
     while not loop or k != h:
         loop.append(k)
-        k = pockets.along_rim.py_func(edges.twins, k)
+        k = pinches.along_rim.py_func(edges.twins, k)
     assert set(numbers[loop]) == {numbers[h]}
     return np.r_[edges.origins, room], np.r_[edges.twins, room], np.array(loop, np.int64), len(edges.twins) // 3
 
@@ -80,10 +80,10 @@ def thinned_out():
 
 CASES = {
     "pockets.add_ear": lambda: (*pocket_of(HOLED)[:2], *pocket_of(HOLED)[2][:2].tolist(), M),
-    "pockets.along_rim": lambda: (TORN.twins, int(np.flatnonzero(TORN.twins < 0)[3])),
+    "pinches.along_rim": lambda: (TORN.twins, int(np.flatnonzero(TORN.twins < 0)[3])),
     "pockets.cap": lambda: (SHAPE.points, *pocket_of(GAPPED)),
     "pockets.cap around one point": lambda: (SHAPE.points, *pocket_of(HOLED)),
-    "pockets.close_loop": lambda: (
+    "pinches.close_loop": lambda: (
         EDGES.origins,
         np.arange(N, dtype=np.int32),
         np.arange(9),
@@ -94,9 +94,9 @@ CASES = {
         1,
         3,
     ),
-    "pockets.cut_walks": lambda: walks_of(TORN),
-    "pockets.drop_closed_fan": lambda: (EDGES.twins, int(FIRST[ASTRAY]), ~bools(M)),
-    "pockets.drop_fan": lambda: (TORN.twins, int(np.flatnonzero(TORN.twins < 0)[3]), ~bools(M)),
+    "pinches.cut_walks": lambda: walks_of(TORN),
+    "pinches.drop_closed_fan": lambda: (EDGES.twins, int(FIRST[ASTRAY]), ~bools(M)),
+    "pinches.drop_fan": lambda: (TORN.twins, int(np.flatnonzero(TORN.twins < 0)[3]), ~bools(M)),
     "pockets.ear_cost": lambda: (
         SHAPE.points,
         *pocket_of(GAPPED)[:3],
@@ -109,15 +109,15 @@ CASES = {
     "pockets.goes_before a bad one": lambda: (np.array([2.0, 1.0]), np.array([False, True]), 0, 1),
     "pockets.is_over": lambda: (np.eye(4, 3), 3, 0, 1, 2, 1.0, 1.0, 1.0),
     "pockets.is_over not": lambda: (np.eye(4, 3) - np.eye(4, 3, -3), 3, 0, 1, 2, 1.0, 1.0, 1.0),
-    "pockets.fan_size": lambda: (
+    "pinches.fan_size": lambda: (
         TORN.origins,
         TORN.twins,
         int(np.flatnonzero(TORN.twins < 0)[3]),
         int(SHAPE.boundary[0]),
         int(SHAPE.boundary[2]),
     ),
-    "pockets.keep_largest": lambda: (TORN.twins, np.arange(len(TORN.twins) // 3) % 9 > 0),
-    "pockets.mark_pinching": lambda: (
+    "pinches.keep_largest": lambda: (TORN.twins, np.arange(len(TORN.twins) // 3) % 9 > 0),
+    "pinches.mark_pinching": lambda: (
         TORN.origins,
         TORN.twins,
         rims_of(TORN),
@@ -126,8 +126,8 @@ CASES = {
         int32s(N) - 1,
         ~bools(len(TORN.twins) // 3),
     ),
-    "pockets.mark_rims": lambda: (TORN.twins, int32s(len(TORN.twins))),
-    "pockets.to_half_edges": lambda: (
+    "pinches.mark_rims": lambda: (TORN.twins, int32s(len(TORN.twins))),
+    "pinches.to_half_edges": lambda: (
         RAGGED.triangles,
         RAGGED.edge_of,
         RAGGED.sides,

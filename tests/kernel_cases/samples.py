@@ -6,7 +6,8 @@ from pointchart._kernels.mesh import put_back
 from pointchart.agreement.agreed_surface import patchwork
 from pointchart.mesh.connectivity import start_draft
 from pointchart.points.neighbors import nearest, spacing
-from pointchart.points.stars import delaunay_star, normals
+from pointchart.points.planes import normals
+from pointchart.points.stars import delaunay_star
 from pointchart.shapes import disc, relief
 from pointchart.surface import interpolate_clough_tocher
 

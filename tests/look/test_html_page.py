@@ -347,7 +347,7 @@ def test_a_finger_upwards_scrolls_the_page_and_sideways_turns_the_mesh(browser, 
     context.close()
 
 
-@pytest.mark.parametrize("most", [100, 400])
+@pytest.mark.parametrize("most", [100, 300])
 def test_a_thinned_mesh_is_a_disc_with_the_boundary_of_the_whole(made, most):
     points, result, _ = made
     shown = thin(points, result.triangles, most)

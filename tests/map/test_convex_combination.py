@@ -4,7 +4,8 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from strategies import flat, planar_discs, rotations, seeds, systems
 
-from pointchart.boundary.layout import chord_length_steps, on_circle, on_square
+from pointchart.boundary.layout import on_circle, on_square
+from pointchart.boundary.steps import chord_length_steps
 from pointchart.errors import InputError, SolveError
 from pointchart.map.convex_combination import parameterize
 from pointchart.map.weights import normalize, reciprocal_distance, uniform

@@ -6,7 +6,8 @@ from hypothesis import strategies as st
 from scipy.spatial import Delaunay
 from strategies import flat, planar_discs, rotations, seeds
 
-from pointchart.boundary.layout import chord_length_steps, on_circle
+from pointchart.boundary.layout import on_circle
+from pointchart.boundary.steps import chord_length_steps
 from pointchart.map.convex_combination import parameterize
 from pointchart.map.weights import mean_value, reciprocal_distance, shape_preserving
 from pointchart.mesh.connectivity import boundary_loops, half_edges, one_rings

@@ -7,7 +7,8 @@ from hypothesis import strategies as st
 from scipy.spatial import Delaunay
 from strategies import convex_discs, planar_discs, seeds
 
-from pointchart.boundary.layout import chord_length_steps, on_circle, on_polygon, on_square
+from pointchart.boundary.layout import on_circle, on_polygon, on_square
+from pointchart.boundary.steps import chord_length_steps
 from pointchart.errors import InputError, SolveError
 from pointchart.mesh.connectivity import boundary_loops, half_edges
 from pointchart.mesh.planar_delaunay import coinciding, separate, triangulate

@@ -6,7 +6,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from strategies import clouds, seeds
 
-from pointchart.boundary.layout import chord_length_steps, on_circle
+from pointchart.boundary.layout import on_circle
+from pointchart.boundary.steps import chord_length_steps
 from pointchart.errors import InputError
 from pointchart.map.convex_combination import parameterize
 from pointchart.mesh.delaunay_swaps import swap_to_delaunay

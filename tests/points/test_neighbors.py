@@ -7,7 +7,8 @@ from strategies import clouds, rotations, seeds
 from pointchart.errors import InputError
 from pointchart.points.neighborhoods import Neighborhoods, from_pairs, rectangular
 from pointchart.points.neighbors import ball, nearest, spacing
-from pointchart.points.stars import delaunay_star, normals
+from pointchart.points.planes import normals
+from pointchart.points.stars import delaunay_star
 from pointchart.points.ties import break_ties
 from pointchart.points.trees import BoxTree
 from pointchart.shapes import bent_sheet, disc, grid, hemisphere, relief

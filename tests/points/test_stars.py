@@ -8,7 +8,8 @@ from strategies import clouds, cocircular_sets, flat, integer_sets, planar_discs
 from pointchart.errors import InputError
 from pointchart.points.neighborhoods import Neighborhoods
 from pointchart.points.neighbors import ball, nearest
-from pointchart.points.stars import STEEPEST, delaunay_star, nearest_star, normals, smooth
+from pointchart.points.planes import normals, smooth
+from pointchart.points.stars import STEEPEST, delaunay_star, nearest_star
 from pointchart.shapes import add_noise, disc, fold, grid, hemisphere, relief
 
 

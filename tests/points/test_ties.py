@@ -82,6 +82,12 @@ def test_keys_tell_points_apart_to_the_last_bit_and_by_the_order_of_their_coordi
     assert len(set(tie_keys(points).tolist())) == len(points)
 
 
+def test_only_points_in_one_direction_at_powers_of_two_have_one_key():
+    whole = np.stack(np.meshgrid(*[range(-4, 5)] * 3), axis=-1).reshape(-1, 3)
+    directions = {tuple((point // (np.gcd.reduce(point) & -np.gcd.reduce(point) or 1)).tolist()) for point in whole}
+    assert len(set(tie_keys(1.0 * whole).tolist())) == len(directions)
+
+
 def test_ways_are_even_in_the_cube_and_those_of_neighbours_on_a_grid_are_independent():
     points = shapes.grid(200, 200).points + 0.5
     ways = 100 * (break_ties(points, np.ones(len(points))) - points)

@@ -6,17 +6,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .._check import check_kind
-from .._kernels.agreement.agreed_triangles import (
-    FULL,
-    JOINED,
-    close_up,
-    collect_triangles,
-    count_at_edges,
-    count_votes,
-    keep_manifold,
-    name_edges,
-    turn_alike,
-)
+from .._kernels.agreement.agreed_triangles import collect_triangles, count_at_edges, count_votes, name_edges
+from .._kernels.agreement.manifold_patches import FULL, JOINED, close_up, keep_manifold, turn_alike
 from .._parallel import over_ranges
 from ..points.neighborhoods import Rings
 from ..typing import Floats, Indices, Loop, Mask, Points, Triangles

@@ -9,8 +9,8 @@ import viser
 
 from ..errors import InputError
 from ..look.camera import AXES
+from ..map.scan_parameters import default_stars
 from ..map.weights import mean_value
-from ..mesh.ways import default_stars
 from ..points.surroundings import NEAREST
 from ..runs.option_values import Neighbors
 from ..runs.param_run import ParamRun

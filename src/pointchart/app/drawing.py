@@ -10,7 +10,7 @@ import viser
 
 from ..look.paint import STONE
 from ..points.neighbors import nearest
-from ..points.stars import normals
+from ..points.planes import normals
 from ..typing import UV, Floats, Indices, Loop, Points, Triangles
 from .followers import MIDDLE, Followers
 from .frame import Frame, coarser, shades, spacing, stance, thinned

@@ -2,26 +2,14 @@
 
 from ..agreement.agreed_surface import Patchwork, agreed_patchwork, patchwork
 from .by_halves import order_by_halves
+from .corners import places_of, quarter_places, sharpest_places
 from .find import Candidate, FoundBoundary, find_boundary
-from .layout import (
-    centripetal_steps,
-    chord_length_on_circle,
-    chord_length_steps,
-    is_same_loop,
-    on_circle,
-    on_polygon,
-    on_square,
-    places_of,
-    quarter_places,
-    reversed_loop,
-    sharpest_places,
-    uniform_steps,
-)
+from .layout import chord_length_on_circle, is_same_loop, on_circle, on_polygon, on_square, reversed_loop
 from .loops import rims, tightened
 from .order import check_order
 from .orientation import anticlockwise
 from .scores import BoundaryScores, angular_gaps, boundary_scores, hull_test
-from .steps import perimeter, step_lengths
+from .steps import centripetal_steps, chord_length_steps, perimeter, step_lengths, uniform_steps
 
 __all__ = [
     "BoundaryScores",

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from .._kernels.agreement.agreed_triangles import draw_tight, walk_rims
+from .._kernels.boundary.rim_walks import draw_tight, walk_rims
 from ..agreement.agreed_surface import Patchwork
 from ..typing import Indices, Loop, Mask, Points
 

@@ -11,7 +11,8 @@ from .._kernels.boundary.sides import survey_sides
 from .._kernels.unsigned import unsigned
 from .._parallel import over_ranges
 from ..points.neighborhoods import Neighborhoods, Rings, Stars
-from ..points.stars import FADING, STEEPEST, Sides, plane_normals
+from ..points.planes import FADING, plane_normals
+from ..points.stars import STEEPEST, Sides
 from ..typing import Floats, Mask, Points, Triangles
 
 WIDE_STAR = 1.0  # circumradius of a star in spacings where the doubt begins: that of an even sampling is 0.6

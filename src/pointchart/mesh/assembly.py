@@ -5,7 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from .._kernels.mesh.half_edges import pair_half_edges
-from .._kernels.mesh.pockets import cap, cut_walks, keep_largest, mark_pinching, mark_rims, to_half_edges
+from .._kernels.mesh.pinches import cut_walks, keep_largest, mark_pinching, mark_rims, to_half_edges
+from .._kernels.mesh.pockets import cap
 from .._kernels.unsigned import unsigned
 from ..agreement.agreed_surface import Patchwork
 from ..boundary import is_same_loop

@@ -1,6 +1,5 @@
 """The ways from a scan with a boundary to a mesh, and which one is taken."""
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 from .._check import check_neighbors
@@ -8,19 +7,14 @@ from ..agreement.links import link_stars, tie_down
 from ..boundary.bounded import Survey
 from ..boundary.layout import chord_length_on_circle
 from ..clock import StageClock
+from ..map.scan_parameters import Connect, default_stars
 from ..map.weights import WeightScheme, mean_value, trusted
-from ..points.neighborhoods import Neighborhoods
-from ..points.neighbors import nearest_rows
-from ..points.stars import planar_stars, star_and_sides
-from ..points.surroundings import NEAREST
+from ..points.stars import star_and_sides
 from ..solve.solver import Solver
 from ..solve.systems import default_solver
-from ..typing import Points
 from .delaunay_swaps import swap_to_delaunay
 from .make import Meshed, mesh_by_agreement, mesh_by_links, mesh_once
 from .swap_rule import Swaps
-
-Connect = Callable[[Points], Neighborhoods]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -79,8 +73,3 @@ def _by_neighborhoods(survey: Survey, way: Way, clock: StageClock) -> Meshed:
     first = swap_to_delaunay if way.swaps.from_delaunay else way.swaps
     weights = way.weights or mean_value
     return mesh_once(points, rim, circle, neighborhoods, weights=weights, swap=first, solver=solver, clock=clock)
-
-
-def default_stars(points: Points) -> Neighborhoods:
-    """Find the Delaunay stars of the paper's method 3 where nothing else is asked for."""
-    return planar_stars(points, nearest_rows(points, NEAREST))

@@ -8,7 +8,8 @@ from .._check import check_points
 from ..typing import Floats, Keys, Points
 from .neighborhoods import Neighborhoods, Stars, rectangular
 from .neighbors import median_distances
-from .stars import Sides, on_planes, star_and_sides
+from .planes import on_planes
+from .stars import Sides, star_and_sides
 from .ties import break_ties, tie_keys
 from .trees import BoxTree
 

@@ -16,12 +16,11 @@ from ..errors import OptionError
 from ..gaps import rules as gaps
 from ..gaps.rules import GapRule
 from ..map import weights
+from ..map.scan_parameters import Connect, LayoutRule
 from ..map.weights import WeightScheme
 from ..mesh import crease_swaps as curvature_swaps
 from ..mesh import delaunay_swaps as swaps
 from ..mesh.swap_rule import SwapRule
-from ..mesh.ways import Connect
-from ..pipeline import LayoutRule
 from ..points import neighbors, stars
 from ..points import surroundings as vicinity
 from ..points.neighborhoods import Neighborhoods

@@ -13,7 +13,7 @@ from .shared_options import GivenBoundary, Running, Source, Told, corners_option
 
 if TYPE_CHECKING:
     from ..clock import StageClock
-    from ..pipeline import LayoutRule
+    from ..map.scan_parameters import LayoutRule
     from ..report.record import RunReport
     from ..surface.loss import Loss
     from ..typing import Indices

@@ -10,9 +10,8 @@ from .option_values import Component, Domain, Neighbors, Spacing, Weighting
 from .options import Group, argument, option
 
 if TYPE_CHECKING:
+    from ..map.scan_parameters import Connect, LayoutRule
     from ..map.weights import WeightScheme
-    from ..mesh.ways import Connect
-    from ..pipeline import LayoutRule
     from ..typing import Floats, Indices
 
 

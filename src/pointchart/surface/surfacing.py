@@ -13,8 +13,9 @@ from ..clock import StageClock
 from ..errors import InputError, Remedy, SolveError
 from ..gaps.bridges import BridgedPatch
 from ..gaps.rules import BoundaryAndGaps, GapRule, leave_gaps_open, refuse_second_boundary
+from ..map.scan_parameters import LayoutRule
 from ..mesh.connectivity import boundary_loops, half_edges
-from ..pipeline import LayoutRule, Reconstruction, reconstruct
+from ..pipeline import Reconstruction, reconstruct
 from ..plane.crossings import is_simple
 from ..plane.polygons import signed_area
 from ..typing import UV, Points, Triangles

@@ -4,7 +4,7 @@ from kernel_cases.samples import SHAPE, N, bools, ints
 
 from pointchart._kernels.points import inversion
 from pointchart.points.neighbors import nearest
-from pointchart.points.stars import normals
+from pointchart.points.planes import normals
 
 
 @pytest.mark.parametrize("k", [4, 6, 9])

@@ -6,8 +6,8 @@ from ..._parallel import on_threads
 from ...clock import StageClock
 from ...io import UV_SUFFIXES, write_uv
 from ...map.convex_combination import Parameterization
+from ...map.scan_parameters import parameterize_scan
 from ...mesh.planar_delaunay import coinciding
-from ...pipeline import parameterize_scan
 from ...report.as_json import writing_json
 from ...report.mesh_facts import solve_facts, stage_facts
 from ...report.record import Note, RunReport, WrittenFile
