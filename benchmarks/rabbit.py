@@ -41,8 +41,8 @@ def rabbit(spacing: float = 0.016, *, seed: int = 0) -> tuple[Points, Loop]:
 def _height(places: Points) -> Floats:
     """Return about how far places are outside the rabbit, less than 0 inside."""
     near = []
-    for centre, radii, tilt in PARTS:
-        off, angle = places - centre, np.deg2rad(tilt)
+    for center, radii, tilt in PARTS:
+        off, angle = places - center, np.deg2rad(tilt)
         across = off[:, 0] * np.cos(angle) - off[:, 1] * np.sin(angle)
         along = off[:, 0] * np.sin(angle) + off[:, 1] * np.cos(angle)
         scaled = np.stack([across, along, off[:, 2]], axis=1) / radii

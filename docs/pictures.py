@@ -13,7 +13,7 @@ from matplotlib.collections import LineCollection, PolyCollection
 
 import pointchart as pc
 from pointchart import shapes
-from pointchart.agreement.agreed_surface import agreed_patchwork
+from pointchart.agreement.agreed_surface import collect_agreed
 from pointchart.boundary.bounded import survey_scan
 from pointchart.look.camera import rotation
 from pointchart.look.color_scales import LITTLE_TO_MUCH, color_map
@@ -83,7 +83,7 @@ def prepare():
     return figure
 
 
-def neighbourhoods():
+def neighborhoods():
     """Draw a ball, the nearest and a Delaunay star of the same point, on a track-like scan."""
     rng = np.random.default_rng(5)
     points = np.array([[x + 0.25 * rng.uniform(), 2.6 * y, 0.0] for y in range(9) for x in range(23)])
@@ -113,7 +113,7 @@ def boundary():
     points = shapes.pierce(shapes.relief(2500, seed=4), n_gaps=2, seed=2).points
     survey = survey_scan(points)
     cloud, near = survey.cloud.points, survey.vicinity
-    agreed = agreed_patchwork(near.smoothed, near.star, near.spacing).triangles
+    agreed = collect_agreed(near.smoothed, near.star, near.spacing).triangles
     figure, (left, middle, right) = panels(3, "triangles on which stars agree", "scores", "loops", width=11.0)
     wires(left, cloud, agreed, width=0.35)
     middle.scatter(*cloud[:, :2].T, s=6, c=survey.score().total, cmap=SCALE, vmin=0, vmax=1)
@@ -265,8 +265,8 @@ def half_edges():
         panel.set(xlim=(-0.55, 3.4), ylim=(-0.3, 3.2))
     for t, middle in enumerate(middles):
         left.text(*middle, f"t = {t}", ha="center", va="center", color="#7b8790", fontsize=9)
-    for h, twin in enumerate(edges.twins):
-        _half_edge(left, places, middles, edges, h, INK if twin >= 0 else ACCENT, str(h))
+    for h, twins in enumerate(edges.twins):
+        _half_edge(left, places, middles, edges, h, INK if twins >= 0 else ACCENT, str(h))
     h = 5
     names = [(h, "h"), (3, "following(h)"), (4, "preceding(h)")]
     names += [(int(edges.twins[h]), "twins[h]"), (int(edges.twins[4]), "twins[preceding(h)]")]
@@ -290,7 +290,7 @@ def _half_edge(axes, places, middles, edges, h, color, words):
 
 PICTURES = {
     "prepare": prepare,
-    "neighbourhoods": neighbourhoods,
+    "neighbourhoods": neighborhoods,
     "found": boundary,
     "map": map_,
     "assemble": assemble,

@@ -63,7 +63,7 @@ def test_a_boundary_may_name_a_repeated_point_by_any_of_its_rows():
 
 def test_points_one_digit_apart_stay_two_points():
     points = shapes.relief(300, seed=2).points
-    twin = np.nextafter(points[40], 9)
-    result = reconstruct(np.r_[points, [twin]], shapes.relief(300, seed=2).boundary)
+    twins = np.nextafter(points[40], 9)
+    result = reconstruct(np.r_[points, [twins]], shapes.relief(300, seed=2).boundary)
     assert len(result.rows) == 301
     assert result.certificate.is_disc

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from strategies import planar_discs, seeds
 
 from pointchart import InputError, delaunay_star, nearest, shapes, spacing
-from pointchart.agreement.agreed_surface import agreed_patchwork, patchwork
+from pointchart.agreement.agreed_surface import collect_agreed, patchwork
 from pointchart.boundary import is_same_loop, rims
 from pointchart.mesh.connectivity import half_edges
 from pointchart.points.ties import break_ties
@@ -90,7 +90,7 @@ def test_without_triangles_there_is_no_surface():
 
 def test_agreed_triangles_have_at_most_two_at_an_edge(any_disc):
     points, step = any_disc.points, spacing(any_disc.points)
-    surface = agreed_patchwork(points, delaunay_star(break_ties(points, step), nearest(points)), step)
+    surface = collect_agreed(points, delaunay_star(break_ties(points, step), nearest(points)), step)
     assert_edges_fit(surface)
     assert n_overfull(surface, surface.part >= 0) == 0
 
@@ -99,7 +99,7 @@ def test_agreed_triangles_have_at_most_two_at_an_edge(any_disc):
 @settings(max_examples=10)
 def test_stars_of_a_planar_disc_agree_on_its_triangulation_but_for_slivers_at_the_rim(shape):
     step = spacing(shape.points)
-    surface = agreed_patchwork(shape.points, delaunay_star(shape.points, nearest(shape.points, 30)), step)
+    surface = collect_agreed(shape.points, delaunay_star(shape.points, nearest(shape.points, 30)), step)
     assert as_set(surface.triangles) <= as_set(shape.triangles)
     inner = shape.triangles[~np.isin(shape.triangles, shape.boundary).any(axis=1)]
     assert as_set(inner) <= as_set(surface.triangles)
@@ -109,7 +109,7 @@ def test_triangles_that_bridge_a_gap_are_left_out():
     sheet = shapes.grid(5, 4)
     halves = sheet.points + [3.9, 0, 0] * (sheet.points[:, :1] > 2)
     halves = break_ties(halves, np.ones(20))
-    surface = agreed_patchwork(halves, delaunay_star(halves, nearest(halves, 19)), np.ones(20))
+    surface = collect_agreed(halves, delaunay_star(halves, nearest(halves, 19)), np.ones(20))
     is_right = halves[surface.triangles, 0] > 3
     assert (is_right.all(axis=1) | ~is_right.any(axis=1)).all()
     assert len(surface.triangles) > 12
@@ -118,7 +118,7 @@ def test_triangles_that_bridge_a_gap_are_left_out():
 def test_agreed_triangles_need_stars():
     sheet = shapes.grid(5, 5)
     with pytest.raises(InputError, match="only ordered neighbourhoods hold triangles; use Delaunay stars"):
-        agreed_patchwork(sheet.points, nearest(sheet.points, 8), spacing(sheet.points))
+        collect_agreed(sheet.points, nearest(sheet.points, 8), spacing(sheet.points))
 
 
 # Orientation

@@ -177,11 +177,11 @@ def test_a_loop_of_other_points_is_refused():
     ids=["ball", "nearest", "star"],
 )
 @pytest.mark.parametrize("centre", [0, 77, 399])
-def test_neighbours_of_one_point_are_those_that_all_points_give(connect, scheme, reach, centre):
+def test_neighbours_of_one_point_are_those_that_all_points_give(connect, scheme, reach, center):
     offset = np.array([5e5, 4e6, 100.0])
-    one = around_point(RELIEF.points + offset, centre, connect, scheme, **reach)
+    one = around_point(RELIEF.points + offset, center, connect, scheme, **reach)
     whole = connect(RELIEF.points)
-    row = slice(whole.indptr[centre], whole.indptr[centre + 1])
+    row = slice(whole.indptr[center], whole.indptr[center + 1])
     weights = scheme(RELIEF.points, whole)[row]
     order, other = np.argsort(one.neighbors), np.argsort(whole.indices[row])
     assert np.array_equal(one.neighbors[order], whole.indices[row][other])

@@ -50,13 +50,13 @@ def test_a_click_shows_the_neighbourhood_of_a_point(window, page):
 
 def test_of_many_requests_the_one_under_way_and_the_newest_are_drawn(monkeypatch):
     is_begun, may_end, page = threading.Event(), threading.Event(), MagicMock(reporting=lambda *_: nullcontext())
-    step = cloud_steps.NeighbourhoodStep(page)
+    step = cloud_steps.NeighborhoodStep(page)
     step.controls = MagicMock(values={})
 
-    def slowly(points, centre, *_, **__):
+    def slowly(points, center, *_, **__):
         is_begun.set()
         may_end.wait(SECONDS / 1000)
-        return Around(centre, np.array([7]), np.array([1.0]), is_star=False, is_open=False)
+        return Around(center, np.array([7]), np.array([1.0]), is_star=False, is_open=False)
 
     monkeypatch.setattr(cloud_steps, "around_point", slowly)
     threads = [threading.Thread(target=step.pick, args=(row, None)) for row in (1, 2, 3, 4)]
@@ -67,7 +67,7 @@ def test_of_many_requests_the_one_under_way_and_the_newest_are_drawn(monkeypatch
     may_end.set()
     for thread in threads:
         thread.join(SECONDS / 1000)
-    drawn = [call.args[0].centre for call in page.drawing.draw_around.call_args_list]
+    drawn = [call.args[0].center for call in page.drawing.draw_around.call_args_list]
     assert drawn == [1, 4]
 
 

@@ -8,7 +8,7 @@ from scipy.spatial import cKDTree
 from strategies import clouds, planar_discs, rotations, seeds
 
 from pointchart import InputError, boundary_scores, delaunay_star, explore, find_boundary, nearest, shapes, spacing
-from pointchart.agreement.agreed_surface import agreed_patchwork
+from pointchart.agreement.agreed_surface import collect_agreed
 from pointchart.boundary.scores import corner_angles
 
 PARTS = ["gap", "half_disc", "width", "uncovered"]
@@ -18,7 +18,7 @@ def scores_of(points, k=20):
     """Score points without smoothing them or breaking ties."""
     around, step = nearest(points, k), spacing(points)
     star = delaunay_star(points, nearest(points, 20))
-    return boundary_scores(points, around, star, agreed_patchwork(points, star, step).triangles, step)
+    return boundary_scores(points, around, star, collect_agreed(points, star, step).triangles, step)
 
 
 def depths(sheet, nx, ny):
@@ -32,7 +32,7 @@ def depths(sheet, nx, ny):
 def test_scores_of_a_grid_are_nothing_inside_and_full_on_a_straight_edge_and_at_a_corner():
     sheet = shapes.grid(21, 17)
     vicinity = explore(sheet.points)
-    agreed = agreed_patchwork(vicinity.smoothed, vicinity.star, vicinity.spacing).triangles
+    agreed = collect_agreed(vicinity.smoothed, vicinity.star, vicinity.spacing).triangles
     scores = boundary_scores(vicinity.smoothed, vicinity.around, vicinity.star, agreed, vicinity.spacing)
     near, far = depths(sheet, 21, 17)
     inside, edge, corner = near >= 2, (near == 0) & (far >= 4), far == 0

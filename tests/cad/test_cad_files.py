@@ -24,9 +24,9 @@ BORDER = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
 CLAMPED = np.array([0.0, 0.0, 1.0, 1.0])
 
 
-def circle(n, radius=0.3, centre=(0.5, 0.5)):
+def circle(n, radius=0.3, center=(0.5, 0.5)):
     angles = np.linspace(0.0, 2.0 * np.pi, n, endpoint=False)
-    return np.array(centre) + radius * np.column_stack([np.cos(angles), np.sin(angles)])
+    return np.array(center) + radius * np.column_stack([np.cos(angles), np.sin(angles)])
 
 
 def relief(scale=1.0):

@@ -17,7 +17,7 @@ from kernel_cases.samples import (
     ints,
     mixed_draft,
 )
-from pointchart._kernels.mesh import drafts, pinches, put_back, recover_edges
+from pointchart._kernels.mesh import editable, pinches, put_back, recover_edges
 from pointchart._kernels.unsigned import unsigned
 from pointchart.mesh.connectivity import half_edges, one_rings
 from pointchart.shapes import disc
@@ -66,16 +66,16 @@ def walks_of(edges):
 
 def changed_draft():
     changed = draft()
-    drafts.swap_noted.py_func(changed, 0, INNER)
+    editable.swap_noted.py_func(changed, 0, INNER)
     return changed
 
 
 def thinned_out():
     thin = draft()
-    n, _ = put_back.thin_out.py_func(thin, ASTRAY, drafts.inner_degree.py_func(thin, ASTRAY))
+    n, _ = put_back.thin_out.py_func(thin, ASTRAY, editable.inner_degree.py_func(thin, ASTRAY))
     h = int(thin.leaving[ASTRAY])
-    one = drafts.next_around.py_func(thin, h)
-    return thin, n, ASTRAY, h, one, drafts.next_around.py_func(thin, one)
+    one = editable.next_around.py_func(thin, h)
+    return thin, n, ASTRAY, h, one, editable.next_around.py_func(thin, one)
 
 
 CASES = {
@@ -174,13 +174,13 @@ CASES = {
         np.ones((N, 3)),
         ints(N),
     ),
-    "drafts.anchor": lambda: (draft(), 5),
-    "drafts.first_around": lambda: (draft(), int(SHAPE.boundary[0])),
-    "drafts.inner_degree": lambda: (draft(), ASTRAY),
-    "drafts.next_around": lambda: (draft(), INNER),
-    "drafts.record": lambda: (draft(), 2, 5),
-    "drafts.swap_noted": lambda: (draft(), 0, INNER),
-    "drafts.undo": lambda: (changed_draft(), 2),
+    "editable.anchor": lambda: (draft(), 5),
+    "editable.first_around": lambda: (draft(), int(SHAPE.boundary[0])),
+    "editable.inner_degree": lambda: (draft(), ASTRAY),
+    "editable.next_around": lambda: (draft(), INNER),
+    "editable.record": lambda: (draft(), 2, 5),
+    "editable.swap_noted": lambda: (draft(), 0, INNER),
+    "editable.undo": lambda: (changed_draft(), 2),
     "energy.alone_energy": lambda: (draft(), *EDGES.origins[6:9].tolist(), 6, 7, 8),
     "energy.bend_across": lambda: (draft(), INNER, (0.3, 0.2, 0.6, 0.7)),
     "energy.bend_energy": lambda: (SHAPE.points, 0, 1, (0.3, 0.2, 0.6, 0.7), (0.6, 0.2, 0.3, 0.7)),
@@ -266,7 +266,7 @@ CASES = {
         1e-9,
     ),
     "put_back.take_out": lambda: thinned_out(),
-    "put_back.thin_out": lambda: (draft(), ASTRAY, drafts.inner_degree.py_func(draft(), ASTRAY)),
+    "put_back.thin_out": lambda: (draft(), ASTRAY, editable.inner_degree.py_func(draft(), ASTRAY)),
     "swaps.angle_parts": lambda: (SHAPE.points, 0, 1, 2),
     "swaps.angle_sum_measure": lambda: (SHAPE.points, 0, 1, 2, 3),
     "swaps.are_joined": lambda: (EDGES.origins, EDGES.twins, INNER, int(EDGES.origins[INNER - 1])),

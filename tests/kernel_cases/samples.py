@@ -4,7 +4,7 @@ import numpy as np
 
 from pointchart._kernels.mesh import put_back
 from pointchart.agreement.agreed_surface import patchwork
-from pointchart.mesh.connectivity import start_draft
+from pointchart.mesh.connectivity import editable_mesh
 from pointchart.points.neighbors import nearest, spacing
 from pointchart.points.planes import normals
 from pointchart.points.stars import delaunay_star
@@ -38,12 +38,12 @@ def int32s(n):
 
 
 def draft():
-    return start_draft(SHAPE.points, SHAPE.triangles, journal=put_back.JOURNAL)
+    return editable_mesh(SHAPE.points, SHAPE.triangles, journal=put_back.JOURNAL)
 
 
 def draft_in_plane():
-    return start_draft(SHAPE.uv, SHAPE.triangles, journal=2)
+    return editable_mesh(SHAPE.uv, SHAPE.triangles, journal=2)
 
 
 def mixed_draft():
-    return start_draft(SHAPE.points, disc(60, seed=1).triangles, journal=put_back.JOURNAL)
+    return editable_mesh(SHAPE.points, disc(60, seed=1).triangles, journal=put_back.JOURNAL)

@@ -65,7 +65,7 @@ CASES = {
         SPLINES.domain,
         SPLINES.discs,
         SPLINES.boxes,
-        SPLINES.centres,
+        SPLINES.centers,
         SPLINES.coefficients,
         SHAPE.uv,
         4,
@@ -75,7 +75,7 @@ CASES = {
     ),
     "radial_blend.start_jet": lambda: (SHAPE.points[:6], 0.1, 0.2, np.zeros((6, 4))),
     "radial_blend.surface_jet": lambda: (
-        SPLINES.centres[0],
+        SPLINES.centers[0],
         SPLINES.coefficients[0],
         0.1,
         0.2,

@@ -103,8 +103,8 @@ def test_planar_points_with_an_affine_boundary_come_back_exactly(scheme, shape, 
 def twins(seed):
     """Return a disc and an interior point of it doubled at a hundredth of the spacing."""
     shape = disc(150, seed=seed)
-    twin = shape.points[seed % 40] + [0.01 * shape.spacing, 0, 0]
-    return np.r_[shape.points, [twin]], shape, seed % 40
+    twins = shape.points[seed % 40] + [0.01 * shape.spacing, 0, 0]
+    return np.r_[shape.points, [twins]], shape, seed % 40
 
 
 def twin_distance(seed, scheme):

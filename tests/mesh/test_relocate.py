@@ -7,7 +7,7 @@ from strategies import planar_discs, rotations, seeds
 from pointchart import shapes
 from pointchart.agreement.links import link_stars
 from pointchart.errors import InputError
-from pointchart.mesh.connectivity import boundary_loops, half_edges, one_rings, start_draft
+from pointchart.mesh.connectivity import boundary_loops, editable_mesh, half_edges, one_rings
 from pointchart.mesh.delaunay_swaps import swap_to_delaunay
 from pointchart.mesh.quality import dihedral_angles
 from pointchart.mesh.relocate import (
@@ -25,7 +25,7 @@ from pointchart.proof.certificate import certify
 
 
 def suspects_in(points, triangles, links, among=None):
-    return suspect_points(links, start_draft(points, triangles, journal=0), among)
+    return suspect_points(links, editable_mesh(points, triangles, journal=0), among)
 
 
 def put_astray(triangles, n_points, rng, n_moves):
@@ -216,7 +216,11 @@ def wheel(n_around, n_rings, *, is_whole):
 @pytest.mark.parametrize("is_whole", [True, False])
 def test_suspects_are_found_around_points_of_many_edges(is_whole):
     shape = wheel(45, 4, is_whole=is_whole)
-    n, draft, is_near = len(shape.points), start_draft(shape.points, shape.triangles, journal=0), two_edges_apart(shape)
+    n, draft, is_near = (
+        len(shape.points),
+        editable_mesh(shape.points, shape.triangles, journal=0),
+        two_edges_apart(shape),
+    )
     assert not is_near.all(axis=1).any()
     for i in range(n):
         links = Neighborhoods(np.where(np.arange(n + 1) > i, n, 0), np.arange(n))
@@ -234,7 +238,7 @@ def astray_relief():
 
 def test_no_point_moves_where_no_gain_is_enough():
     shape, astray = astray_relief()
-    draft, everyone = start_draft(shape.points, astray, journal=JOURNAL), np.arange(len(shape.points))
+    draft, everyone = editable_mesh(shape.points, astray, journal=JOURNAL), np.arange(len(shape.points))
     around = nearest(shape.points, 20)
     n_moves, is_touched = relocate_in_place(draft, around, everyone, np.inf)
     assert n_moves == is_touched.sum() == 0
@@ -247,7 +251,7 @@ def test_no_point_moves_where_no_gain_is_enough():
 
 def test_the_least_gain_is_a_small_share_of_the_energy_of_a_triangle_in_any_unit():
     shape, _ = astray_relief()
-    one, other = (least_gain(start_draft(unit * shape.points, shape.triangles, journal=0)) for unit in (1, 4.0))
+    one, other = (least_gain(editable_mesh(unit * shape.points, shape.triangles, journal=0)) for unit in (1, 4.0))
     assert other == 4.0**4 * one
     assert 0 < one < 1e-3 * mesh_energy(shape.points, shape.triangles) / len(shape.triangles)
 

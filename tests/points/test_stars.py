@@ -223,8 +223,8 @@ def test_neighbours_in_one_direction_leave_the_nearest():
 @pytest.mark.parametrize("ulps", [1, 3])
 def test_neighbours_an_ulp_apart_do_not_break_a_star(ulps):
     points = relief(80, seed=4).points
-    twin = points[5] + ulps * np.spacing(points[5])
-    points = np.r_[points, [twin]]
+    twins = points[5] + ulps * np.spacing(points[5])
+    points = np.r_[points, [twins]]
     star = delaunay_star(points, nearest(points, 15))
     assert {(5, 80), (80, 5)} <= star_pairs(star)
     assert np.isfinite(star.local).all()

@@ -5,7 +5,7 @@ from hypothesis import strategies as st
 from strategies import clouds, planar_discs, rotations, seeds
 
 from pointchart import InputError, explore, nearest, nearest_star, shapes, spacing
-from pointchart.agreement.agreed_surface import agreed_patchwork
+from pointchart.agreement.agreed_surface import collect_agreed
 from pointchart.agreement.links import disputed_links
 from pointchart.points.neighborhoods import PlanarStars
 
@@ -56,7 +56,7 @@ def test_the_stars_inside_a_planar_disc_are_those_of_its_triangulation(shape):
 @pytest.mark.parametrize("size", [(12, 9), (20, 15)])
 def test_the_stars_of_a_grid_agree_on_two_triangles_a_cell(size):
     vicinity = explore(shapes.grid(*size).points)
-    agreed = agreed_patchwork(vicinity.smoothed, vicinity.star, vicinity.spacing).triangles
+    agreed = collect_agreed(vicinity.smoothed, vicinity.star, vicinity.spacing).triangles
     assert len(agreed) == 2 * (size[0] - 1) * (size[1] - 1)
 
 

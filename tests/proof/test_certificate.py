@@ -230,13 +230,13 @@ def test_the_mean_value_map_of_a_disc_is_certified(any_disc, layout):
 def has_chord_on_a_side(shape, rim):
     """Tell whether an inner edge joins two points of one side of the square."""
     place = {int(i): p for i, p in zip(shape.boundary, rim, strict=True)}
-    neighbours = set(zip(shape.boundary.tolist(), np.roll(shape.boundary, -1).tolist(), strict=True))
+    neighbors = set(zip(shape.boundary.tolist(), np.roll(shape.boundary, -1).tolist(), strict=True))
     edges = shape.triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2).tolist()
     return any(
         a in place
         and b in place
-        and (a, b) not in neighbours
-        and (b, a) not in neighbours
+        and (a, b) not in neighbors
+        and (b, a) not in neighbors
         and any(place[a][k] == place[b][k] and place[a][k] in (0, 1) for k in range(2))
         for a, b in edges
     )

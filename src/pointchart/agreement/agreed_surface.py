@@ -1,4 +1,4 @@
-"""Patchwork surfaces: triangles of which at most two share an edge, such as those on which neighbouring stars agree."""
+"""Surfaces of triangles on which neighbouring stars agree: at most two of them share an edge."""
 
 from dataclasses import dataclass, replace
 
@@ -17,7 +17,7 @@ WIDEST = 2.0  # circumradius of the largest triangle taken, in local spacings
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Patchwork:
+class AgreedSurface:
     """Triangles of which at most two share an edge, with the edges between them.
 
     Attributes
@@ -47,7 +47,7 @@ class Patchwork:
     spare: Triangles
     spare_edges: Indices
 
-    def without(self, dropped: Mask) -> "Patchwork":
+    def without(self, dropped: Mask) -> "AgreedSurface":
         """Return the patchwork without some triangles."""
         if not dropped.any():
             return self
@@ -65,7 +65,7 @@ class Patchwork:
         joined = self.part[self.part >= 0]
         return np.asarray(self.part == (np.argmax(np.bincount(joined)) if len(joined) else 0))
 
-    def extended(self, loop: Loop) -> "Patchwork":
+    def extended(self, loop: Loop) -> "AgreedSurface":
         """Put spare triangles in wherever they fit, but none across a boundary.
 
         Parameters
@@ -75,7 +75,7 @@ class Patchwork:
 
         Returns
         -------
-        Patchwork
+        AgreedSurface
             Without spare triangles, and without those that no orientation fits.
 
         Examples
@@ -112,7 +112,7 @@ class Patchwork:
         return replace(bare, triangles=triangles, edge_of=edge_of, sides=sides, part=parent).without(outcome == FULL)
 
 
-def patchwork(triangles: ArrayLike, n_points: int) -> Patchwork:
+def patchwork(triangles: ArrayLike, n_points: int) -> AgreedSurface:
     """Take triangles in turn wherever no edge gets a third one, and orient neighbours alike.
 
     Those that no orientation fits come last; where edges have room for them too, they make a one-sided surface.
@@ -125,7 +125,7 @@ def patchwork(triangles: ArrayLike, n_points: int) -> Patchwork:
 
     Returns
     -------
-    Patchwork
+    AgreedSurface
 
     Examples
     --------
@@ -138,7 +138,7 @@ def patchwork(triangles: ArrayLike, n_points: int) -> Patchwork:
     return _taken(faces, edge_of, ends, order, may_twist, n_points, faces[:0])
 
 
-def agreed_patchwork(cloud: Points, star: Rings, spacing: Floats) -> Patchwork:
+def collect_agreed(cloud: Points, star: Rings, spacing: Floats) -> AgreedSurface:
     """Collect the triangles that at least two stars hold, the best ones where three would share an edge.
 
     Triangles that all three stars hold come first, then those with small circles.
@@ -153,7 +153,7 @@ def agreed_patchwork(cloud: Points, star: Rings, spacing: Floats) -> Patchwork:
 
     Returns
     -------
-    Patchwork
+    AgreedSurface
     """
     check_kind(star, Rings, "only ordered neighbourhoods hold triangles; use Delaunay stars")
     n, is_open = len(cloud), star.is_open
@@ -195,7 +195,7 @@ def _taken(
     may_twist: Mask,
     n_points: int,
     spare: Triangles,
-) -> Patchwork:
+) -> AgreedSurface:
     """Take triangles in turn; the edges of the spare ones follow theirs."""
     m = len(faces)
     own = np.ascontiguousarray(edge_of[:m])
@@ -203,5 +203,5 @@ def _taken(
     outcome = np.empty(m, np.int8)
     keep_manifold(faces, order, may_twist, own, sides, parent, is_odd, outcome)
     turn_alike(faces, own, parent, is_odd, outcome)
-    whole = Patchwork(faces, own, ends, sides, parent, n_points, spare, edge_of[m:])
+    whole = AgreedSurface(faces, own, ends, sides, parent, n_points, spare, edge_of[m:])
     return whole.without(outcome == FULL)

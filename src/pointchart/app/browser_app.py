@@ -8,7 +8,7 @@ import viser
 from ..io import Scan
 from ..typing import Loop
 from .boundary_step import BoundaryStep
-from .cloud_steps import SHOW, NeighbourhoodStep, add_cloud
+from .cloud_steps import SHOW, NeighborhoodStep, add_cloud
 from .result_steps import MeshStep, SurfaceStep, UVStep
 from .session import Session, Told
 
@@ -44,7 +44,7 @@ def _build(session: Session) -> None:
     with tabs.add_tab("Cloud"):
         add_cloud(session)
     with tabs.add_tab("Neighbourhoods"):
-        around = NeighbourhoodStep(session)
+        around = NeighborhoodStep(session)
     with tabs.add_tab("Boundary"):
         boundary = BoundaryStep(session)
     with tabs.add_tab("UV"):

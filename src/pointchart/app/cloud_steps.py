@@ -57,7 +57,7 @@ def add_cloud(session: Session) -> None:
     dark.on_update(lambda _: session.darken(dark.value))
 
 
-class NeighbourhoodStep:
+class NeighborhoodStep:
     """The neighbourhood of a point in the tab that is open.
 
     Parameters
@@ -66,7 +66,7 @@ class NeighbourhoodStep:
     """
 
     def __init__(self, session: Session) -> None:
-        self._session, self._centre = session, -1
+        self._session, self._center = session, -1
         self._one, self._asked = Lock(), 0
         gui = session.server.gui
         gui.add_html(said_html([f"With “A click {SHOW}”, click a point; neighbours follow the controls."]))
@@ -79,7 +79,7 @@ class NeighbourhoodStep:
 
     def pick(self, row: int, _: viser.SceneClickEvent) -> None:
         """Show the neighbours of a point."""
-        self._centre = row
+        self._center = row
         self._draw()
 
     def _refresh(self) -> None:
@@ -89,7 +89,7 @@ class NeighbourhoodStep:
             self._line.content = refused_html(str(reason))
 
     def _draw(self) -> None:
-        if self._centre < 0:
+        if self._center < 0:
             return
         self._asked += 1
         number = self._asked
@@ -103,11 +103,11 @@ class NeighbourhoodStep:
         count, reach = method.k or min(NEAREST, len(points) - 1), method.radius or 0.0
         connect = replace(method, neighbors=method.neighbors or Neighbors.delaunay).connect() or default_stars
         scheme = method.scheme() or mean_value
-        around = around_point(points, self._centre, connect, scheme, k=count, radius=reach)
+        around = around_point(points, self._center, connect, scheme, k=count, radius=reach)
         what = ("an open star of" if around.is_open else "a star of") if around.is_star else "its"
         low, high = around.weights.min(), around.weights.max()
         lines = [
-            f"point {around.centre} at {_place(points[around.centre])}",
+            f"point {around.center} at {_place(points[around.center])}",
             f"{what} {len(around.neighbors)} neighbours, weights from {low:.3g} to {high:.3g}",
         ]
         self._said.content = said_html(lines)

@@ -175,10 +175,10 @@ class Drawing:
         """Draw the neighbours of a point, its links to them, darker the more they weigh, and the ball."""
         self.clear_around()
         self._scene.add_frame("/cloud/around", show_axes=False)
-        centre, place = self.places[around.centre], self.places[around.neighbors]
+        center, place = self.places[around.center], self.places[around.neighbors]
         strength = (around.weights / around.weights.max())[:, None]
         colors = strength * np.array(LINK) + (1.0 - strength) * np.array(PALE)
-        links = np.stack([np.broadcast_to(centre, place.shape), place], axis=1)
+        links = np.stack([np.broadcast_to(center, place.shape), place], axis=1)
         self._scene.add_line_segments(
             "/cloud/around/links",
             links,
@@ -186,14 +186,14 @@ class Drawing:
             thickness=4.0,
             thickness_units="screen",
         )
-        size = float(np.linalg.norm(place - centre, axis=1).min()) / (SPACING * self.spacing)
+        size = float(np.linalg.norm(place - center, axis=1).min()) / (SPACING * self.spacing)
         self._paint.points("/cloud/around/neighbors", place, colors / 255.0, larger=0.5 * size)
-        self._paint.points("/cloud/around/centre", centre[None], np.array(LOOP) / 255.0, larger=0.6 * size)
+        self._paint.points("/cloud/around/centre", center[None], np.array(LOOP) / 255.0, larger=0.6 * size)
         if around.is_star:
             sides = np.stack([place, np.roll(place, -1, axis=0)], axis=1)
             self._paint.lines("/cloud/around/star", sides[:-1] if around.is_open else sides, LINK, 1.5)
         if radius is not None:
-            self._paint.ball("/cloud/around/ball", centre, radius * self.frame.scale, LINK, opacity=0.15)
+            self._paint.ball("/cloud/around/ball", center, radius * self.frame.scale, LINK, opacity=0.15)
 
     def clear_around(self) -> None:
         """Draw no neighbours."""

@@ -34,7 +34,7 @@ class Around:
         Whether a star has a gap of half a turn, as on the boundary.
     """
 
-    centre: int
+    center: int
     neighbors: Indices
     weights: Weights
     is_star: bool
@@ -42,7 +42,7 @@ class Around:
 
 
 def around_point(
-    points: Points, centre: int, connect: Connect, scheme: WeightScheme, *, k: int = 0, radius: float = 0.0
+    points: Points, center: int, connect: Connect, scheme: WeightScheme, *, k: int = 0, radius: float = 0.0
 ) -> Around:
     """Find the neighbours of one point, and their weights, as all points together would give them.
 
@@ -77,28 +77,28 @@ def around_point(
     if k >= len(points) or ROOM * k > MOST:
         most = min(len(points) - 1, MOST // ROOM)
         raise InputError(f"k is {k}, but of {len(points)} points at most {most} neighbours are shown; take a smaller k")
-    rows, local = _near(points, centre, max(LEAST, ROOM * k), radius)
+    rows, local = _near(points, center, max(LEAST, ROOM * k), radius)
     with points_called(rows):
         found = connect(local)
         weights = scheme(local, found)
     row = slice(found.indptr[0], found.indptr[1])
     is_open = isinstance(found, Rings) and bool(found.is_open[0])
-    return Around(centre, rows[found.indices[row]], weights[row], isinstance(found, Rings), is_open)
+    return Around(center, rows[found.indices[row]], weights[row], isinstance(found, Rings), is_open)
 
 
-def _near(points: Points, centre: int, least: int, radius: float) -> tuple[Indices, Points]:
+def _near(points: Points, center: int, least: int, radius: float) -> tuple[Indices, Points]:
     """Return the distinct points near one, itself first, and where they are from there."""
-    offset = points - points[centre]
+    offset = points - points[center]
     square = np.einsum("ij,ij->i", offset, offset)
     within = np.count_nonzero(square < radius * radius)
     if within > MOST:
         raise InputError(
-            f"the ball of radius {radius:g} around point {centre} holds {within} points, and at most {MOST} are looked "
+            f"the ball of radius {radius:g} around point {center} holds {within} points, and at most {MOST} are looked "
             "at here; take a smaller radius"
         )
     reach = np.partition(square, least)[least] if least < len(points) else np.inf
     rows = np.flatnonzero(square <= max(reach, radius * radius))
     rows = rows[np.argsort(square[rows], kind="stable")]
-    rows = np.concatenate([[centre], rows[rows != centre]])
+    rows = np.concatenate([[center], rows[rows != center]])
     first = np.sort(np.unique(offset[rows], axis=0, return_index=True)[1])
     return rows[first], np.ascontiguousarray(offset[rows[first]])

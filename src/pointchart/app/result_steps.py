@@ -53,12 +53,12 @@ class UVStep:
         Of that step.
     """
 
-    def __init__(self, session: Session, neighbourhoods: Controls) -> None:
+    def __init__(self, session: Session, neighborhoods: Controls) -> None:
         self._session = session
         session.server.gui.add_html(said_html([ONE_PART]))
         files = StepFiles(UV_FILE, "uv.csv")
         self._step = Step(
-            session, ParamRun, "Map to the plane", DOMAIN, files=files, take=self._take, also=neighbourhoods
+            session, ParamRun, "Map to the plane", DOMAIN, files=files, take=self._take, also=neighborhoods
         )
         self._step.exported_as(add_export(session, "Export the parameters", "uv", UV_SUFFIXES, self._write))
 

@@ -1,6 +1,6 @@
 """The boundary of a patch: detect its points, put them in order, lay them out on a convex domain."""
 
-from ..agreement.agreed_surface import Patchwork, agreed_patchwork, patchwork
+from ..agreement.agreed_surface import AgreedSurface, collect_agreed, patchwork
 from .by_halves import order_by_halves
 from .corners import places_of, quarter_places, sharpest_places
 from .find import Candidate, FoundBoundary, find_boundary
@@ -12,11 +12,10 @@ from .scores import BoundaryScores, angular_gaps, boundary_scores, hull_test
 from .steps import centripetal_steps, chord_length_steps, perimeter, step_lengths, uniform_steps
 
 __all__ = [
+    "AgreedSurface",
     "BoundaryScores",
     "Candidate",
     "FoundBoundary",
-    "Patchwork",
-    "agreed_patchwork",
     "angular_gaps",
     "anticlockwise",
     "boundary_scores",
@@ -24,6 +23,7 @@ __all__ = [
     "check_order",
     "chord_length_on_circle",
     "chord_length_steps",
+    "collect_agreed",
     "find_boundary",
     "hull_test",
     "is_same_loop",

@@ -7,7 +7,7 @@ from numpy.typing import ArrayLike
 
 from .._check import check_loop, check_place, check_points
 from .._memory import check_room
-from ..agreement.agreed_surface import Patchwork, agreed_patchwork
+from ..agreement.agreed_surface import AgreedSurface, collect_agreed
 from ..clock import StageClock
 from ..errors import InputError, points_called
 from ..points.cloud import Cloud, made_ready
@@ -66,7 +66,7 @@ class Survey:
         near, agreed = self.vicinity, self._agree().triangles
         return score_points(near.smoothed, near.around, near.star, agreed, near.spacing, near.sides)
 
-    def draw_tight(self) -> Patchwork:
+    def draw_tight(self) -> AgreedSurface:
         """Return the triangles on which stars agree, drawn tight to the boundary; found now, if that was given."""
         if self.found is not None:
             return self.found.surface
@@ -74,8 +74,8 @@ class Survey:
         on_loop[self.loop] = True
         return tightened(self.vicinity.smoothed, self._agree(), on_loop)
 
-    def _agree(self) -> Patchwork:
-        return agreed_patchwork(self.vicinity.smoothed, self.vicinity.star, self.vicinity.spacing)
+    def _agree(self) -> AgreedSurface:
+        return collect_agreed(self.vicinity.smoothed, self.vicinity.star, self.vicinity.spacing)
 
 
 def survey_scan(

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .._check import check_points
-from ..agreement.agreed_surface import Patchwork, agreed_patchwork
+from ..agreement.agreed_surface import AgreedSurface, collect_agreed
 from ..errors import InputError
 from ..points.parts import check_one_piece
 from ..points.surroundings import Vicinity, look_around
@@ -49,14 +49,14 @@ class FoundBoundary:
     candidates : list of Candidate
         All loops that the scores support: that of the boundary first, then the others, the best first.
     scores : BoundaryScores
-    surface : Patchwork
+    surface : AgreedSurface
         The triangles on which stars agree, with the loops for rims.
     """
 
     loop: Loop
     candidates: list[Candidate]
     scores: BoundaryScores
-    surface: Patchwork
+    surface: AgreedSurface
 
     def nearest_to(self, points: Points, place: Floats) -> int:
         """Return which candidate passes nearest to a place, (3,)."""
@@ -104,7 +104,7 @@ def find_boundary(points: ArrayLike, *, vicinity: Vicinity | None = None) -> Fou
 def search_boundary(cloud: Points, near: Vicinity) -> FoundBoundary:
     """Find the boundary as `find_boundary` does, of points that are known to be right."""
     check_one_piece(cloud, near.around, near.spacing)
-    agreed = agreed_patchwork(near.smoothed, near.star, near.spacing)
+    agreed = collect_agreed(near.smoothed, near.star, near.spacing)
     scores = score_points(near.smoothed, near.around, near.star, agreed.triangles, near.spacing, near.sides)
     is_boundary = scores.is_boundary
     surface = tightened(near.smoothed, agreed, is_boundary)

@@ -3,11 +3,11 @@
 import numpy as np
 
 from .._kernels.boundary.rim_walks import draw_tight, walk_rims
-from ..agreement.agreed_surface import Patchwork
+from ..agreement.agreed_surface import AgreedSurface
 from ..typing import Indices, Loop, Mask, Points
 
 
-def tightened(cloud: Points, surface: Patchwork, is_boundary: Mask) -> Patchwork:
+def tightened(cloud: Points, surface: AgreedSurface, is_boundary: Mask) -> AgreedSurface:
     """Draw the rims of a surface tighter, so that boundary points that they jump over come to lie on them.
 
     A triangle on a rim goes when its inner corner scores as a boundary point and sees the rim edge under more than a
@@ -16,12 +16,12 @@ def tightened(cloud: Points, surface: Patchwork, is_boundary: Mask) -> Patchwork
     Parameters
     ----------
     cloud : (n, 3) float64 array
-    surface : Patchwork
+    surface : AgreedSurface
     is_boundary : (n,) bool array
 
     Returns
     -------
-    Patchwork
+    AgreedSurface
         The triangles left.
 
     Examples
@@ -42,7 +42,7 @@ def tightened(cloud: Points, surface: Patchwork, is_boundary: Mask) -> Patchwork
     return surface.without(removed)
 
 
-def rims(surface: Patchwork) -> list[Loop]:
+def rims(surface: AgreedSurface) -> list[Loop]:
     """Walk the rims of a surface: simple loops, in order, of either direction.
 
     Where a rim passes a point twice, it is split into loops that pass it once.

@@ -93,13 +93,13 @@ def boundary_scores(
 
     Examples
     --------
-    >>> from pointchart.agreement.agreed_surface import agreed_patchwork
+    >>> from pointchart.agreement.agreed_surface import collect_agreed
     >>> from pointchart.points.neighbors import nearest
     >>> from pointchart.points.stars import delaunay_star
     >>> plus = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0]])
     >>> near = nearest(plus, 4)
     >>> star = delaunay_star(plus, near)
-    >>> agreed = agreed_patchwork(plus, star, np.ones(5)).triangles
+    >>> agreed = collect_agreed(plus, star, np.ones(5)).triangles
     >>> boundary_scores(plus, near, star, agreed, np.ones(5)).is_boundary
     array([False,  True,  True,  True,  True])
     """

@@ -8,7 +8,7 @@ from .._kernels.mesh.half_edges import pair_half_edges
 from .._kernels.mesh.pinches import cut_walks, keep_largest, mark_pinching, mark_rims, to_half_edges
 from .._kernels.mesh.pockets import cap
 from .._kernels.unsigned import unsigned
-from ..agreement.agreed_surface import Patchwork
+from ..agreement.agreed_surface import AgreedSurface
 from ..boundary import is_same_loop
 from ..typing import Indices, Loop, Points, Triangles
 
@@ -31,7 +31,7 @@ class Assembled:
     n_pockets: int
 
 
-def assemble(points: Points, surface: Patchwork, loop: Loop) -> Assembled | None:
+def assemble(points: Points, surface: AgreedSurface, loop: Loop) -> Assembled | None:
     """Complete a surface of triangles to a disc on all points, with a given boundary.
 
     Where stars agree, the mesh is there already. What is missing are pockets of a few triangles, mostly where four
@@ -41,7 +41,7 @@ def assemble(points: Points, surface: Patchwork, loop: Loop) -> Assembled | None
     Parameters
     ----------
     points : (n, 3) float64 array
-    surface : Patchwork
+    surface : AgreedSurface
         Its largest part is taken.
     loop : (b,) int64 array
         The boundary, in the direction that the result shall have.
@@ -86,7 +86,7 @@ def assemble(points: Points, surface: Patchwork, loop: Loop) -> Assembled | None
     return Assembled(triangles if runs_along else np.ascontiguousarray(triangles[:, ::-1]), len(pockets))
 
 
-def _cleared(surface: Patchwork, loop: Loop) -> tuple[Indices, Indices, list[Indices]] | None:
+def _cleared(surface: AgreedSurface, loop: Loop) -> tuple[Indices, Indices, list[Indices]] | None:
     """Drop fans at which a surface is pinched, other than by pockets that touch; None if that goes on and on.
 
     Returns corners and twins of the half-edges that are left, and the half-edges of each loop of their boundary.

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .._check import check_triangles
-from .._kernels.mesh.drafts import Draft
+from .._kernels.mesh.editable import EditableMesh
 from .._kernels.mesh.half_edges import count_fans, order_rings, pair_half_edges
 from .._kernels.unsigned import unsigned
 from ..errors import InputError
@@ -52,7 +52,7 @@ def half_edges(triangles: Triangles, n_points: int) -> HalfEdges:
     return HalfEdges(origins, twins, int(overfull))
 
 
-def start_draft(points: Points, triangles: Triangles, *, journal: int) -> Draft:
+def editable_mesh(points: Points, triangles: Triangles, *, journal: int) -> EditableMesh:
     """Copy a manifold mesh for edits that can be undone.
 
     Parameters
@@ -65,7 +65,7 @@ def start_draft(points: Points, triangles: Triangles, *, journal: int) -> Draft:
 
     Returns
     -------
-    Draft
+    EditableMesh
 
     Raises
     ------
@@ -75,7 +75,7 @@ def start_draft(points: Points, triangles: Triangles, *, journal: int) -> Draft:
     Examples
     --------
     >>> import numpy as np
-    >>> draft = start_draft(np.eye(3), np.array([[0, 1, 2]]), journal=0)
+    >>> draft = editable_mesh(np.eye(3), np.array([[0, 1, 2]]), journal=0)
     >>> draft.leaving.tolist()
     [0, 1, 2]
     """
@@ -87,7 +87,7 @@ def start_draft(points: Points, triangles: Triangles, *, journal: int) -> Draft:
             f"the mesh is no manifold on its points: {edges.n_overfull} half-edges share their direction, and "
             f"{np.count_nonzero(leaving < 0)} points are in no triangle; take these points out and mend the edges"
         )
-    return Draft(points, edges.origins, edges.twins, leaving, np.empty((journal, 7), np.int64))
+    return EditableMesh(points, edges.origins, edges.twins, leaving, np.empty((journal, 7), np.int64))
 
 
 def boundary_loops(edges: HalfEdges) -> list[Loop]:

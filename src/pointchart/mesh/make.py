@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .._kernels.mesh.put_back import JOURNAL
-from ..agreement.agreed_surface import Patchwork
+from ..agreement.agreed_surface import AgreedSurface
 from ..agreement.links import Links
 from ..clock import StageClock
 from ..map.convex_combination import Parameterization, map_points
@@ -15,7 +15,7 @@ from ..points.neighborhoods import Neighborhoods
 from ..solve.solver import Solver
 from ..typing import UV, Loop, Points, Triangles
 from .assembly import assemble
-from .connectivity import start_draft
+from .connectivity import editable_mesh
 from .delaunay_swaps import swap_in_place
 from .planar_delaunay import separate, triangulate
 from .recover import recover_links
@@ -101,7 +101,7 @@ def mesh_once(
 
 
 def mesh_by_agreement(
-    points: Points, loop: Loop, surface: Patchwork, star: Neighborhoods, around: Neighborhoods, *, clock: StageClock
+    points: Points, loop: Loop, surface: AgreedSurface, star: Neighborhoods, around: Neighborhoods, *, clock: StageClock
 ) -> Meshed | None:
     """Assemble the mesh from the triangles on which stars agree, without a map; None if they do not make a disc."""
     with clock("assemble"):
@@ -149,8 +149,8 @@ def _settled(
     """
     n_moves, among, is_touched, least = 0, None, None, 0.0
     with clock("swap"):
-        draft = start_draft(points, triangles, journal=JOURNAL)
-        n_swaps, is_settled = swap_in_place(points, draft.corners, draft.twin)
+        draft = editable_mesh(points, triangles, journal=JOURNAL)
+        n_swaps, is_settled = swap_in_place(points, draft.corners, draft.twins)
     for _ in range(PASSES):
         with clock("relocate"):
             draft.leaving[draft.corners] = np.arange(len(draft.corners), dtype=np.int32)
@@ -162,6 +162,6 @@ def _settled(
             break
         among = np.flatnonzero(is_touched)
         with clock("swap"):
-            more, is_settled = swap_in_place(points, draft.corners, draft.twin, is_touched=is_touched)
+            more, is_settled = swap_in_place(points, draft.corners, draft.twins, is_touched=is_touched)
         n_swaps, n_moves = n_swaps + more, n_moves + moves
     return Swapped(draft.corners.reshape(-1, 3), n_swaps, is_settled), n_moves

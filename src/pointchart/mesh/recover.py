@@ -8,7 +8,7 @@ from .._kernels.mesh.recover_edges import JOURNAL
 from .._kernels.mesh.recover_edges import recover as recover_kernel
 from ..agreement.links import FULL_TRUST, Links
 from ..typing import UV, Points, Triangles
-from .connectivity import start_draft
+from .connectivity import editable_mesh
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -66,6 +66,6 @@ def recover_links(points: Points, uv: UV, triangles: Triangles, links: Links) ->
     is_meant = (graph.rows < graph.indices) & (links.trust == FULL_TRUST)
     one, other = graph.rows[is_meant], graph.indices[is_meant]
     shortest_first = np.argsort(np.linalg.norm(points[one] - points[other], axis=1), kind="stable")
-    draft = start_draft(points, triangles, journal=JOURNAL)
+    draft = editable_mesh(points, triangles, journal=JOURNAL)
     made, missed = recover_kernel(draft, uv, one[shortest_first], other[shortest_first])
     return Recovered(draft.corners.reshape(-1, 3), int(made), int(missed))

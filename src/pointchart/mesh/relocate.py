@@ -5,14 +5,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from .._kernels.agreement.link_trust import mark_far
-from .._kernels.mesh.drafts import Draft
+from .._kernels.mesh.editable import EditableMesh
 from .._kernels.mesh.energy import total_energy
 from .._kernels.mesh.put_back import JOURNAL
 from .._kernels.mesh.put_back import relocate as relocate_kernel
 from .._parallel import over_ranges
 from ..points.neighborhoods import Neighborhoods
 from ..typing import Indices, Mask, Points, Triangles
-from .connectivity import start_draft
+from .connectivity import editable_mesh
 
 LEAST_GAIN = 1e-9  # of the mean energy of a triangle: smaller ones are rounding, and might move points for ever
 TRIES = 30  # per point of the mesh, in all: a cap that no scan of the evaluation has reached
@@ -64,17 +64,17 @@ def relocate_points(points: Points, triangles: Triangles, around: Neighborhoods,
     >>> moved.n_moves, sorted(np.bincount(moved.triangles.ravel()).tolist())
     (1, [2, 2, 2, 2, 4])
     """
-    draft = start_draft(points, triangles, journal=JOURNAL)
+    draft = editable_mesh(points, triangles, journal=JOURNAL)
     n_moves, _ = relocate_in_place(draft, around, suspects, least_gain(draft))
     return Relocated(draft.corners.reshape(-1, 3), n_moves)
 
 
-def least_gain(draft: Draft) -> float:
+def least_gain(draft: EditableMesh) -> float:
     """Return by how much the energy of a mesh has to fall with a move, in the fourth power of the points' unit."""
     return LEAST_GAIN * float(total_energy(draft)) / (len(draft.corners) // 3)
 
 
-def relocate_in_place(draft: Draft, around: Neighborhoods, suspects: Indices, least: float) -> tuple[int, Mask]:
+def relocate_in_place(draft: EditableMesh, around: Neighborhoods, suspects: Indices, least: float) -> tuple[int, Mask]:
     """Relocate points of a draft as `relocate_points` does, where the energy falls by more than `least`.
 
     Returns
@@ -95,7 +95,7 @@ def relocate_in_place(draft: Draft, around: Neighborhoods, suspects: Indices, le
     return int(moves), is_touched
 
 
-def suspect_points(links: Neighborhoods, draft: Draft, among: Indices | None = None) -> Indices:
+def suspect_points(links: Neighborhoods, draft: EditableMesh, among: Indices | None = None) -> Indices:
     """Find the points with a link whose other end is more than two edges away on a mesh, (k,), ascending.
 
     Either the link reaches across to another sheet or the mesh has the point in a wrong place.
@@ -103,8 +103,8 @@ def suspect_points(links: Neighborhoods, draft: Draft, among: Indices | None = N
     Parameters
     ----------
     links : Neighborhoods
-    draft : Draft
-        The mesh; see `start_draft`.
+    draft : EditableMesh
+        The mesh; see `editable_mesh`.
     among : (k,) int array, optional
         Points whose links are looked at; all, if not given.
 
@@ -112,7 +112,7 @@ def suspect_points(links: Neighborhoods, draft: Draft, among: Indices | None = N
     --------
     >>> pair = Neighborhoods(np.array([0, 1, 1, 1, 1, 1, 1]), np.array([5]))
     >>> strip = np.array([[0, 1, 2], [2, 1, 3], [2, 3, 4], [4, 3, 5]])
-    >>> suspect_points(pair, start_draft(np.zeros((6, 3)), strip, journal=0))
+    >>> suspect_points(pair, editable_mesh(np.zeros((6, 3)), strip, journal=0))
     array([0, 5])
     """
     places = np.arange(links.n_points, dtype=np.int32) if among is None else np.asarray(among, np.int32)
@@ -147,4 +147,4 @@ def mesh_energy(points: Points, triangles: Triangles) -> float:
     >>> mesh_energy(right, np.array([[0, 1, 2], [1, 0, 3]])).__round__(12)  # bent by 90 degrees along an edge of 1
     4.5
     """
-    return float(total_energy(start_draft(points, triangles, journal=0))) / 2.0
+    return float(total_energy(editable_mesh(points, triangles, journal=0))) / 2.0

@@ -53,7 +53,7 @@ class RadialSurface:
     domain: Floats
     discs: Floats
     boxes: Floats
-    centres: Floats
+    centers: Floats
     coefficients: Floats
 
     def derivatives(self, uv: UV, du: int = 0, dv: int = 0) -> Points:
@@ -68,7 +68,7 @@ class RadialSurface:
             )
         places = np.ascontiguousarray(uv, dtype=np.float64)
         out, k = np.empty((len(places), 3)), ORDERS.index((du, dv))
-        surface = (self.domain, self.discs, self.boxes, self.centres, self.coefficients)
+        surface = (self.domain, self.discs, self.boxes, self.centers, self.coefficients)
         over_ranges(lambda first, last: kernels.evaluate(*surface, places, k, first, last, out), len(places))
         return out
 
@@ -141,9 +141,9 @@ def fit_radial(points: ArrayLike, uv: ArrayLike, *, smoothing: float = 0.0, near
     members = search(tree, discs[:, :2], k)[1]
     spacing = _spacings(plane[members], discs)
     discs = np.column_stack([discs, spacing])
-    centres = (plane[members] - discs[:, None, :2]) / spacing[:, None, None]
-    coefficients = solve_splines(cloud, members, centres, smoothing)
-    return RadialSurface(np.array([plane.min(axis=0), plane.max(axis=0)]), discs, _boxes(discs), centres, coefficients)
+    centers = (plane[members] - discs[:, None, :2]) / spacing[:, None, None]
+    coefficients = solve_splines(cloud, members, centers, smoothing)
+    return RadialSurface(np.array([plane.min(axis=0), plane.max(axis=0)]), discs, _boxes(discs), centers, coefficients)
 
 
 def _cover(tree: cKDTree, uv: UV, k: int) -> Floats:

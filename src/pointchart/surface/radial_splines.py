@@ -14,7 +14,7 @@ BLOCK = 64  # discs whose matrices are held at once: some megabytes
 LARGEST_MISS = 1e-8  # of the extent of the points of a disc
 
 
-def solve_splines(points: Points, members: Indices, centres: Floats, smoothing: float) -> Floats:
+def solve_splines(points: Points, members: Indices, centers: Floats, smoothing: float) -> Floats:
     """Solve for the coefficients of the spline of each disc, (d, k + 6, 3)."""
     n_discs, k = members.shape
     # The transform of r^5 is -450 pi / w^7, so a wave of frequency w is halved by this multiple of the bending.
@@ -24,22 +24,22 @@ def solve_splines(points: Points, members: Indices, centres: Floats, smoothing: 
     def solve(first: int, last: int) -> None:
         for start in range(first, last, BLOCK):
             block = slice(start, min(start + BLOCK, last))
-            coefficients[block], miss[block] = _solve_block(points[members[block]], centres[block], multiple)
+            coefficients[block], miss[block] = _solve_block(points[members[block]], centers[block], multiple)
 
     # The matrices are too small for threads of the linear algebra to pay: the discs have theirs.
     with ONE_THREAD, threadpool_limits(1):
         over_ranges(solve, n_discs)
     if not miss.max() <= LARGEST_MISS:
-        raise _missed(miss, members, centres)
+        raise _missed(miss, members, centers)
     return coefficients
 
 
-def _missed(miss: Floats, members: Indices, centres: Floats) -> SolveError:
+def _missed(miss: Floats, members: Indices, centers: Floats) -> SolveError:
     """Name a point that the surface misses most, and the closest two parameters of such discs."""
     worst = np.argsort(-miss.max(axis=1), kind="stable")[:BLOCK]
     worst = worst[miss[worst].max(axis=1) > LARGEST_MISS]
-    gaps = np.linalg.norm(centres[worst, :, None] - centres[worst, None], axis=3)
-    gaps[:, np.arange(centres.shape[1]), np.arange(centres.shape[1])] = np.inf
+    gaps = np.linalg.norm(centers[worst, :, None] - centers[worst, None], axis=3)
+    gaps[:, np.arange(centers.shape[1]), np.arange(centers.shape[1])] = np.inf
     d, i, j = np.unravel_index(np.argmin(gaps), gaps.shape)
     return SolveError(
         f"the surface misses point {{missed}} by {miss.max():.2g} of the extent of its disc, because the parameters of "
@@ -49,14 +49,14 @@ def _missed(miss: Floats, members: Indices, centres: Floats) -> SolveError:
     )
 
 
-def _solve_block(near: Floats, centres: Floats, multiple: float) -> tuple[Floats, Floats]:
+def _solve_block(near: Floats, centers: Floats, multiple: float) -> tuple[Floats, Floats]:
     """Return the coefficients of a few discs, and how far they miss their system, over the extent of the points."""
-    count, k, _ = centres.shape
+    count, k, _ = centers.shape
     matrix, right = np.zeros((count, k + 6, k + 6)), np.zeros((count, k + 6, 3))
-    difference = centres[:, :, None] - centres[:, None]
+    difference = centers[:, :, None] - centers[:, None]
     # Minus r^5 is positive on what quadratics leave (Wendland 2005, chapter 8), so the multiple adds to it.
     matrix[:, :k, :k] = multiple * np.eye(k) - np.einsum("...x,...x", difference, difference) ** 2.5
-    matrix[:, :k, k:] = quadratics(centres)
+    matrix[:, :k, k:] = quadratics(centers)
     matrix[:, k:, :k] = matrix[:, :k, k:].swapaxes(1, 2)
     middle = near.mean(axis=1)
     right[:, :k] = near - middle[:, None]

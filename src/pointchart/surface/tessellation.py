@@ -9,7 +9,7 @@ from scipy.spatial import cKDTree
 
 from .._kernels.surface.constrain import constrain
 from ..errors import InputError
-from ..mesh.connectivity import start_draft
+from ..mesh.connectivity import editable_mesh
 from ..mesh.delaunay_swaps import swap_to_delaunay
 from ..mesh.planar_delaunay import coinciding, triangulate
 from ..plane.crossings import is_simple
@@ -177,13 +177,13 @@ def _triangulate_inside(polygons: list[UV], grid: UV) -> tuple[UV, Triangles]:
     doubled = coinciding(plane)
     if len(doubled):
         raise _meeting(polygons, *doubled[:2].tolist())
-    draft = start_draft(plane, triangulate(plane, np.arange(len(plane) - FRAME, len(plane))), journal=2)
+    draft = editable_mesh(plane, triangulate(plane, np.arange(len(plane) - FRAME, len(plane))), journal=2)
     ahead = _ahead(polygons, len(plane))
     one, other = constrain(draft, ahead)
     if one >= 0:
         raise _meeting(polygons, one, other)
     triangles = draft.corners.reshape(-1, 3)
-    is_inside = _inside(polygons, draft.corners, draft.twin, ahead)
+    is_inside = _inside(polygons, draft.corners, draft.twins, ahead)
     used, corners = np.unique(triangles[is_inside], return_inverse=True)
     # The sides are the boundary now, which swaps leave alone.
     flat = np.column_stack([plane[used], np.zeros(len(used))])

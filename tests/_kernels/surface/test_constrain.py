@@ -2,7 +2,7 @@ import numpy as np
 from kernel_cases.samples import FAR, SHAPE, N, draft_in_plane, ints
 
 from pointchart._kernels.surface import constrain
-from pointchart.mesh.connectivity import start_draft
+from pointchart.mesh.connectivity import editable_mesh
 from pointchart.mesh.planar_delaunay import triangulate
 from pointchart.plane.exact_signs import orientation_signs
 
@@ -21,9 +21,9 @@ def test_a_side_stops_at_a_point_on_it_and_at_a_side_across_it():
     ahead[4] = 5
     for middle, found in ((0.0, [6]), (0.1, [-1])):
         places[6, 1] = middle
-        mesh = start_draft(places, triangulate(places, np.arange(4)), journal=2)
+        mesh = editable_mesh(places, triangulate(places, np.arange(4)), journal=2)
         assert constrain.insert_side(mesh, ahead, 4, 5) in found
     ahead[6] = 1
     places[6, 1] = 0.2
-    mesh = start_draft(places, triangulate(places, np.arange(4)), journal=2)
+    mesh = editable_mesh(places, triangulate(places, np.arange(4)), journal=2)
     assert constrain.constrain(mesh, ahead) != (-1, -1)

@@ -3,7 +3,7 @@
 import numpy as np
 from numba import njit
 
-from ..mesh.drafts import first_around, next_around
+from ..mesh.editable import first_around, next_around
 from ..mesh.half_edges import following, preceding
 
 RING = 32  # points at hand, two a triangle: rings of over 16 triangles, against six mostly, are walked once more

@@ -97,15 +97,15 @@ def add_pair(points, cost, corner, outer, row, sign, sums):
 
 
 @njit(cache=True, nogil=True)
-def sum_curvature(points, corners, twin, cost, sums):
+def sum_curvature(points, corners, twins, cost, sums):
     """Write the sums of all points; the defects are those of inner points."""
     sums[:, DEFECT], sums[:, BEND], sums[:, AREA] = 2.0 * math.pi, 0.0, 0.0
     for h in range(len(corners)):
         a, b, c = corners[h], corners[following(h)], corners[preceding(h)]
         if h % 3 == 0:
             add_triangle(points, a, b, c, a, b, c, 1.0, sums)
-        if twin[h] > h:
-            add_bend(points, cost, a, b, c, corners[preceding(twin[h])], a, b, 1.0, sums)
+        if twins[h] > h:
+            add_bend(points, cost, a, b, c, corners[preceding(twins[h])], a, b, 1.0, sums)
 
 
 @njit(cache=True, nogil=True)
@@ -121,18 +121,18 @@ def cost_at_point(cost, is_rim, defect, bend, area):
 
 
 @njit(cache=True, nogil=True)
-def apex_beyond(corners, twin, h):
+def apex_beyond(corners, twins, h):
     """Return the third point of the triangle on the other side of half-edge h, or -1."""
-    return corners[preceding(twin[h])] if twin[h] >= 0 else -1
+    return corners[preceding(twins[h])] if twins[h] >= 0 else -1
 
 
 @njit(cache=True, nogil=True)
-def gain_of_swap(points, corners, twin, cost, unit, is_rim, h, sums, change):
+def gain_of_swap(points, corners, twins, cost, unit, is_rim, h, sums, change):
     """Return by how much the swap of half-edge h lowers the total, and write what it adds to the sums of abcd."""
-    t = twin[h]
+    t = twins[h]
     a, b, c, d = corners[h], corners[t], corners[preceding(h)], corners[preceding(t)]
-    bc, ca = apex_beyond(corners, twin, following(h)), apex_beyond(corners, twin, preceding(h))
-    ad, db = apex_beyond(corners, twin, following(t)), apex_beyond(corners, twin, preceding(t))
+    bc, ca = apex_beyond(corners, twins, following(h)), apex_beyond(corners, twins, preceding(h))
+    ad, db = apex_beyond(corners, twins, following(t)), apex_beyond(corners, twins, preceding(t))
     change[:] = 0.0
     add_pair(points, cost, (a, b, c, d), (bc, ca, ad, db), (0, 1, 2, 3), -1.0, change)
     add_pair(points, cost, (c, d, b, a), (db, bc, ca, ad), (2, 3, 1, 0), 1.0, change)
@@ -149,7 +149,7 @@ def gain_of_swap(points, corners, twin, cost, unit, is_rim, h, sums, change):
 
 
 @njit(cache=True, nogil=True)
-def curvature_swaps(points, corners, twin, cost, unit, is_rim, sums, touched):
+def curvature_swaps(points, corners, twins, cost, unit, is_rim, sums, touched):
     """Swap edges while that lowers the total; return how many swaps that took.
 
     Each sweep looks at the edges that have a corner which the last sweep or this one touched: the gain of a swap is a
@@ -163,17 +163,17 @@ def curvature_swaps(points, corners, twin, cost, unit, is_rim, sums, touched):
         before = total
         sweep += 1
         for h in range(len(corners)):
-            t = twin[h]
+            t = twins[h]
             if t < h:
                 continue
             a, b, c, d = corners[h], corners[t], corners[preceding(h)], corners[preceding(t)]
             if max(touched[a], touched[b], touched[c], touched[d]) < sweep - 1:
                 continue
-            gain = gain_of_swap(points, corners, twin, cost, unit, is_rim, h, sums, change)
+            gain = gain_of_swap(points, corners, twins, cost, unit, is_rim, h, sums, change)
             # Asked so that a gain that is nan swaps nothing.
-            if not gain > LEAST_GAIN * unit or are_joined(corners, twin, preceding(h), d):
+            if not gain > LEAST_GAIN * unit or are_joined(corners, twins, preceding(h), d):
                 continue
-            swap(corners, twin, h)
+            swap(corners, twins, h)
             total += 1
             for row, v in enumerate((a, b, c, d)):
                 sums[v] += change[row]

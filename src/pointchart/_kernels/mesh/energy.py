@@ -38,7 +38,7 @@ def bend_energy(points, a, b, one, other):
 @njit(cache=True, nogil=True)
 def bend_across(draft, h, area):
     """Return the energy of the edge of half-edge h, whose own triangle is given by its area vector and area."""
-    t = draft.twin[h]
+    t = draft.twins[h]
     if t < 0:
         return 0.0
     a, b, c = draft.corners[t], draft.corners[following(t)], draft.corners[preceding(t)]
@@ -58,7 +58,7 @@ def pair_energy(draft, a, b, c, d, bc, ca, ad, db):
 @njit(cache=True, nogil=True)
 def swap_gain(draft, h):
     """Return by how much the energy falls when the edge of half-edge h is swapped."""
-    t = draft.twin[h]
+    t = draft.twins[h]
     bc, ca, ad, db = following(h), preceding(h), following(t), preceding(t)
     a, b, c, d = draft.corners[h], draft.corners[t], draft.corners[ca], draft.corners[db]
     return pair_energy(draft, a, b, c, d, bc, ca, ad, db) - pair_energy(draft, c, d, b, a, db, bc, ca, ad)
@@ -94,6 +94,6 @@ def total_energy(draft):
         energy, area = triangle_energy(draft.points, draft.corners[h], draft.corners[h + 1], draft.corners[h + 2])
         total += energy
         for k in range(h, h + 3):
-            if draft.twin[k] > k:
+            if draft.twins[k] > k:
                 total += bend_across(draft, k, area)
     return total

@@ -21,7 +21,7 @@ def preceding(h):
 
 
 @njit(cache=True, nogil=True)
-def pair_half_edges(corners, n_points, twin):
+def pair_half_edges(corners, n_points, twins):
     """Write the opposite of each half-edge to `twin`, -1 on the boundary; return how many edges are no manifold ones.
 
     An edge is none when two half-edges run the same way along it: more than two triangles, or opposite orientations.
@@ -33,12 +33,12 @@ def pair_half_edges(corners, n_points, twin):
     for v in range(n_points):
         first[v + 2] += first[v + 1]
     # Half-edges bucketed by origin, their targets beside them, so that each search reads one short run of memory.
-    leaving, target = np.empty_like(twin), np.empty_like(corners)
+    leaving, target = np.empty_like(twins), np.empty_like(corners)
     for h in range(len(corners)):
         slot = first[corners[h] + 1]
         leaving[slot], target[slot] = h, corners[following(h)]
         first[corners[h] + 1] += 1
-    twin[:] = -1
+    twins[:] = -1
     overfull = 0
     for a in range(n_points):
         for e in range(first[a], first[a + 1]):
@@ -49,12 +49,12 @@ def pair_half_edges(corners, n_points, twin):
             if b < a:
                 for k in range(first[b], first[b + 1]):
                     if target[k] == a:
-                        twin[leaving[e]], twin[leaving[k]] = leaving[k], leaving[e]
+                        twins[leaving[e]], twins[leaving[k]] = leaving[k], leaving[e]
     return overfull
 
 
 @njit(cache=True, nogil=True)
-def count_fans(corners, twin, fans, seen):
+def count_fans(corners, twins, fans, seen):
     """Count the fans of triangles around each point: 1 where the mesh is a manifold."""
     fans[:] = 0
     seen[:] = False
@@ -65,16 +65,16 @@ def count_fans(corners, twin, fans, seen):
         k = h
         while k >= 0 and not seen[k]:
             seen[k] = True
-            k = twin[preceding(k)]
-        k = twin[h]  # and the other way round, for fans on the boundary that h does not begin
+            k = twins[preceding(k)]
+        k = twins[h]  # and the other way round, for fans on the boundary that h does not begin
         while k >= 0 and not seen[following(k)]:
             k = following(k)
             seen[k] = True
-            k = twin[k]
+            k = twins[k]
 
 
 @njit(cache=True, nogil=True)
-def order_rings(corners, twin, first, indptr, indices, is_open):
+def order_rings(corners, twins, first, indptr, indices, is_open):
     """Write the neighbours of each point of a manifold mesh anticlockwise; `first` is a half-edge leaving each point.
 
     A boundary point begins with its neighbour along the boundary.
@@ -86,11 +86,11 @@ def order_rings(corners, twin, first, indptr, indices, is_open):
             continue
         is_open[v] = False
         h = start
-        while twin[h] >= 0:
-            h = following(twin[h])
+        while twins[h] >= 0:
+            h = following(twins[h])
             if h == start:
                 break
-        if twin[h] < 0:
+        if twins[h] < 0:
             is_open[v] = True
         begin = h
         e = indptr[v]
@@ -98,7 +98,7 @@ def order_rings(corners, twin, first, indptr, indices, is_open):
             indices[e] = corners[following(h)]
             e += 1
             back = preceding(h)
-            h = twin[back]
+            h = twins[back]
             if h < 0:
                 indices[e] = corners[back]
                 break
@@ -117,7 +117,7 @@ def count_parts(corners, n_points):
 
 
 @njit(cache=True, nogil=True)
-def measure_edges(points, corners, twin, spacing, sharpest, first, last, ratios):
+def measure_edges(points, corners, twins, spacing, sharpest, first, last, ratios):
     """Write the length of half-edges first..last over the larger spacing at their ends; return how many are folds.
 
     A fold turns by more than an angle of cosine `sharpest`.
@@ -129,7 +129,7 @@ def measure_edges(points, corners, twin, spacing, sharpest, first, last, ratios)
         for k in range(3):
             square += (points[b, k] - points[a, k]) ** 2
         ratios[h] = math.sqrt(square) / max(spacing[a], spacing[b])
-        t = twin[h]
+        t = twins[h]
         if t > h:
             ux, uy, uz = cross_at(points, a, b, corners[preceding(h)])
             vx, vy, vz = cross_at(points, b, a, corners[preceding(t)])

@@ -6,14 +6,14 @@ from .half_edges import following
 
 
 @njit(cache=True, nogil=True)
-def peel(corners, twin, successor, stack, removed):
+def peel(corners, twins, successor, stack, removed):
     """Remove triangles from the rim inwards until every boundary half-edge runs along the loop.
 
     `successor[v]` is the point after v on the loop, -1 for interior points. Marks triangles in `removed`.
     """
     size = 0
     for h in range(len(corners)):
-        if twin[h] < 0 and successor[corners[h]] != corners[following(h)]:
+        if twins[h] < 0 and successor[corners[h]] != corners[following(h)]:
             stack[size] = h
             size += 1
     # A triangle may wait by more than one of its sides, so it may be gone when its turn comes.
@@ -24,9 +24,9 @@ def peel(corners, twin, successor, stack, removed):
             continue
         removed[h // 3] = True
         for side in (h, following(h), following(following(h))):
-            other = twin[side]
+            other = twins[side]
             if other >= 0:
-                twin[other] = -1
+                twins[other] = -1
                 if not removed[other // 3] and successor[corners[other]] != corners[following(other)]:
                     stack[size] = other
                     size += 1

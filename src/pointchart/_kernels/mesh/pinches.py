@@ -9,23 +9,23 @@ ON_BOUNDARY = 1 << 30  # rank of a fan on the boundary asked for, over that of a
 
 
 @njit(cache=True, nogil=True)
-def to_half_edges(triangles, edge_of, sides, number, corners, twin):
+def to_half_edges(triangles, edge_of, sides, number, corners, twins):
     """Write the corners of triangles that have a number, and their opposite half-edges, -1 where there is none."""
     for t in range(len(triangles)):
         if number[t] < 0:
             continue
         for k in range(3):
             h, e = 3 * number[t] + k, edge_of[t, (k + 2) % 3]
-            corners[h], twin[h] = triangles[t, k], -1
+            corners[h], twins[h] = triangles[t, k], -1
             other = sides[e, 0] + sides[e, 1] - t  # -1 at an edge of one triangle
             if sides[e, 1] >= 0 and number[other] >= 0:
                 for j in range(3):
                     if edge_of[other, (j + 2) % 3] == e:
-                        twin[h] = 3 * number[other] + j
+                        twins[h] = 3 * number[other] + j
 
 
 @njit(cache=True, nogil=True)
-def keep_largest(twin, is_kept):
+def keep_largest(twins, is_kept):
     """Keep the largest part, of those kept, that edges join."""
     part, stack = np.full(len(is_kept), -1, np.int64), np.empty(len(is_kept), np.int64)
     best = most = -1
@@ -38,8 +38,8 @@ def keep_largest(twin, is_kept):
             t = stack[depth]
             size += 1
             for h in range(3 * t, 3 * t + 3):
-                other = twin[h] // 3
-                if twin[h] >= 0 and is_kept[other] and part[other] < 0:
+                other = twins[h] // 3
+                if twins[h] >= 0 and is_kept[other] and part[other] < 0:
                     part[other], stack[depth] = seed, other
                     depth += 1
         if size > most:
@@ -49,31 +49,31 @@ def keep_largest(twin, is_kept):
 
 
 @njit(cache=True, nogil=True)
-def along_rim(twin, h):
+def along_rim(twins, h):
     """Return the boundary half-edge that follows h with the surface on its left."""
     k = following(h)
-    while twin[k] >= 0:
-        k = following(twin[k])
+    while twins[k] >= 0:
+        k = following(twins[k])
     return k
 
 
 @njit(cache=True, nogil=True)
-def mark_rims(twin, rim):
+def mark_rims(twins, rim):
     """Give the boundary walks numbers, in `rim` for each half-edge, -1 inside; return how many there are."""
     rim[:] = -1
     count = 0
-    for h in range(len(twin)):
-        if twin[h] < 0 and rim[h] < 0:
+    for h in range(len(twins)):
+        if twins[h] < 0 and rim[h] < 0:
             k = h
             while rim[k] < 0:
                 rim[k] = count
-                k = along_rim(twin, k)
+                k = along_rim(twins, k)
             count += 1
     return count
 
 
 @njit(cache=True, nogil=True)
-def mark_pinching(corners, twin, rim, ahead, behind, first, is_kept):
+def mark_pinching(corners, twins, rim, ahead, behind, first, is_kept):
     """Drop fans where two walks meet in a point, or one meets an inner point; return how many.
 
     The fan on the boundary asked for stays, else the larger one: `ahead` and `behind` are the points beside each one on
@@ -85,17 +85,17 @@ def mark_pinching(corners, twin, rim, ahead, behind, first, is_kept):
         n_triangles[v] += 1
     # Each fan on a rim is met once, at the boundary half-edge that leaves its point.
     for h in range(len(corners)):
-        if twin[h] >= 0:
+        if twins[h] >= 0:
             continue
         v = corners[h]
-        size, rank = fan_size(corners, twin, h, ahead[v], behind[v])
+        size, rank = fan_size(corners, twins, h, ahead[v], behind[v])
         n_triangles[v] -= size
         best = np.int64(first[v])
         if best < 0:
             first[v] = h
         elif rim[best] != rim[h]:
-            is_better = rank > fan_size(corners, twin, best, ahead[v], behind[v])[1]
-            drop_fan(twin, best if is_better else h, is_kept)
+            is_better = rank > fan_size(corners, twins, best, ahead[v], behind[v])[1]
+            drop_fan(twins, best if is_better else h, is_kept)
             first[v] = h if is_better else best
             dropped += 1
     for h in range(len(corners)):
@@ -104,26 +104,26 @@ def mark_pinching(corners, twin, rim, ahead, behind, first, is_kept):
             continue
         # What is left besides the fans on the rim is a closed one, at an inner point.
         best = np.int64(first[v])
-        if fan_size(corners, twin, best, ahead[v], behind[v])[1] < ON_BOUNDARY:
-            drop_fan(twin, best, is_kept)
+        if fan_size(corners, twins, best, ahead[v], behind[v])[1] < ON_BOUNDARY:
+            drop_fan(twins, best, is_kept)
         else:
-            k = twin[h]
+            k = twins[h]
             while k >= 0 and following(k) != h:
-                k = twin[following(k)]
+                k = twins[following(k)]
             if k < 0:  # this half-edge is of a fan on the rim
                 continue
-            drop_closed_fan(twin, h, is_kept)
+            drop_closed_fan(twins, h, is_kept)
         n_triangles[v] = 0
         dropped += 1
     return dropped
 
 
 @njit(cache=True, nogil=True)
-def fan_size(corners, twin, h, ahead, behind):
+def fan_size(corners, twins, h, ahead, behind):
     """Count the triangles around the origin of boundary half-edge h, and rank the fan: first those with given ends."""
     size, one = 1, corners[following(h)]
-    while twin[preceding(h)] >= 0:
-        h = twin[preceding(h)]
+    while twins[preceding(h)] >= 0:
+        h = twins[preceding(h)]
         size += 1
     other = corners[preceding(h)]
     on_boundary = ahead >= 0 and (one in (ahead, behind) or other in (ahead, behind))
@@ -131,46 +131,46 @@ def fan_size(corners, twin, h, ahead, behind):
 
 
 @njit(cache=True, nogil=True)
-def drop_closed_fan(twin, h, is_kept):
+def drop_closed_fan(twins, h, is_kept):
     """Drop the triangles all around the origin of half-edge h."""
     is_kept[h // 3] = False
-    k = twin[preceding(h)]
+    k = twins[preceding(h)]
     while k != h:
         is_kept[k // 3] = False
-        k = twin[preceding(k)]
+        k = twins[preceding(k)]
 
 
 @njit(cache=True, nogil=True)
-def drop_fan(twin, h, is_kept):
+def drop_fan(twins, h, is_kept):
     """Drop the triangles around the origin of boundary half-edge h."""
     is_kept[h // 3] = False
-    while twin[preceding(h)] >= 0:
-        h = twin[preceding(h)]
+    while twins[preceding(h)] >= 0:
+        h = twins[preceding(h)]
         is_kept[h // 3] = False
 
 
 @njit(cache=True, nogil=True)
-def cut_walks(corners, twin, ahead, behind, place, path, loops, starts, is_kept):
+def cut_walks(corners, twins, ahead, behind, place, path, loops, starts, is_kept):
     """Cut the boundary walks into loops that pass no point twice; return how many, and how many fans are in the way.
 
     The half-edges of each loop follow each other in `loops`, beginning at `starts`. A walk that passes two points in
     turn, twice, is no rim of a surface in the plane: there the lower fan is dropped (see `mark_pinching`). `place`,
     (n_points,) of -1, and `path` are scratch space.
     """
-    seen, closed = np.zeros(len(twin), np.bool_), np.full(len(place), -1, np.int64)
+    seen, closed = np.zeros(len(twins), np.bool_), np.full(len(place), -1, np.int64)
     walk = np.full(len(place), -1, np.int64)
     count = size = tangled = 0
-    for seed in range(len(twin)):
-        if twin[seed] >= 0 or seen[seed]:
+    for seed in range(len(twins)):
+        if twins[seed] >= 0 or seen[seed]:
             continue
         depth, h = 0, seed
         while not seen[h]:
             seen[h] = True
             v = corners[h]
             if walk[v] == seed:
-                one = fan_size(corners, twin, h, ahead[v], behind[v])[1]
-                other = fan_size(corners, twin, closed[v], ahead[v], behind[v])[1]
-                drop_fan(twin, h if one < other else closed[v], is_kept)
+                one = fan_size(corners, twins, h, ahead[v], behind[v])[1]
+                other = fan_size(corners, twins, closed[v], ahead[v], behind[v])[1]
+                drop_fan(twins, h if one < other else closed[v], is_kept)
                 tangled += 1
             # The walk has come back to a point: what it went through since is a loop of its own.
             if place[v] >= 0:
@@ -180,7 +180,7 @@ def cut_walks(corners, twin, ahead, behind, place, path, loops, starts, is_kept)
                     closed[corners[loops[k]]], walk[corners[loops[k]]] = loops[k], seed
             place[v], path[depth] = depth, h
             depth += 1
-            h = along_rim(twin, h)
+            h = along_rim(twins, h)
         size, depth = close_loop(corners, place, path, 0, depth, loops, starts, count, size)
         count += 1
     starts[count] = size

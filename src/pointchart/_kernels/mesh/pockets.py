@@ -15,7 +15,7 @@ MOST_LOOKED_AT = 4000  # points of a rim up to which each ear is looked at for t
 
 
 @njit(cache=True, nogil=True)
-def cap(points, corners, twin, loop, first_free):
+def cap(points, corners, twins, loop, first_free):
     """Close a loop of boundary half-edges by cutting ears, those with the shortest base first.
 
     New triangles go to places `first_free` and on; returns the next free place, or -1 if all bases are edges already.
@@ -28,7 +28,7 @@ def cap(points, corners, twin, loop, first_free):
     for k in range(n):
         after[k], before[k] = (k + 1) % n, (k - 1) % n
     for k in range(n):
-        cost[k], bad[k] = ear_cost(points, corners, twin, edge, active, k, after[k], n == 3)
+        cost[k], bad[k] = ear_cost(points, corners, twins, edge, active, k, after[k], n == 3)
     left, may_be_bad, n_bad = n, False, 0
     while left > 3:
         cut = 0
@@ -40,26 +40,26 @@ def cap(points, corners, twin, loop, first_free):
             if goes_before(cost, bad, before[k], k) or goes_before(cost, bad, after[k], k):
                 continue
             other = after[k]
-            edge[k] = add_ear(corners, twin, edge[k], edge[other], first_free)
+            edge[k] = add_ear(corners, twins, edge[k], edge[other], first_free)
             first_free, edge[other] = first_free + 1, -1
             after[k], before[after[other]] = after[other], k
             left, cut, n_bad = left - 1, cut + 1, n_bad + bad[k]
             for m in (before[k], k):
-                cost[m], bad[m] = ear_cost(points, corners, twin, edge, active, m, after[m], left == 3)
+                cost[m], bad[m] = ear_cost(points, corners, twins, edge, active, m, after[m], left == 3)
         if (cut == 0 and may_be_bad) or n_bad > max(FEW_BAD, MOST_BAD * n):
             return -1
         active = active[edge[active] >= 0]
         may_be_bad = cut == 0
         if may_be_bad:
             for k in active:  # what an ear held may be gone
-                cost[k], bad[k] = ear_cost(points, corners, twin, edge, active, k, after[k], left == 3)
+                cost[k], bad[k] = ear_cost(points, corners, twins, edge, active, k, after[k], left == 3)
                 may_be_bad &= bad[k] or cost[k] == np.inf
             if not may_be_bad:
                 continue
     for k in active:
         if edge[k] >= 0:
-            third = add_ear(corners, twin, edge[k], edge[after[k]], first_free)
-            link(twin, third, edge[before[k]])
+            third = add_ear(corners, twins, edge[k], edge[after[k]], first_free)
+            link(twins, third, edge[before[k]])
             return first_free + 1
     return -1
 
@@ -73,19 +73,19 @@ def goes_before(cost, bad, one, other):
 
 
 @njit(cache=True, nogil=True)
-def add_ear(corners, twin, h, k, place):
+def add_ear(corners, twins, h, k, place):
     """Put a triangle on boundary half-edges h, ab, and k, bc; return its own half-edge along ac."""
     a, b, c = corners[h], corners[k], corners[following(k)]
     new = 3 * place
     corners[new], corners[new + 1], corners[new + 2] = a, c, b
-    twin[new] = -1
-    link(twin, new + 1, k)
-    link(twin, new + 2, h)
+    twins[new] = -1
+    link(twins, new + 1, k)
+    link(twins, new + 2, h)
     return new
 
 
 @njit(cache=True, nogil=True)
-def ear_cost(points, corners, twin, edge, active, one, next_one, is_last):
+def ear_cost(points, corners, twins, edge, active, one, next_one, is_last):
     """Return the squared base of the ear on two half-edges of a rim, inf if it is an edge, and whether the ear is bad.
 
     A bad one folds back on the triangles beside it, or holds another point of the rim.
@@ -93,7 +93,7 @@ def ear_cost(points, corners, twin, edge, active, one, next_one, is_last):
     h, k = edge[one], edge[next_one]
     a, b, c = corners[h], corners[k], corners[following(k)]
     # The last ear's base is the third side, an edge. Asked at both ends: at a pinch, a walk sees one fan of the point.
-    if a == c or (not is_last and (are_joined(corners, twin, h, c) or are_joined(corners, twin, following(k), a))):
+    if a == c or (not is_last and (are_joined(corners, twins, h, c) or are_joined(corners, twins, following(k), a))):
         return np.inf, True
     base = 0.0
     for d in range(3):

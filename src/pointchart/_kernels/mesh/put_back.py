@@ -3,7 +3,7 @@
 import numpy as np
 from numba import njit
 
-from .drafts import anchor, first_around, inner_degree, next_around, record, swap_noted, undo
+from .editable import anchor, first_around, inner_degree, next_around, record, swap_noted, undo
 from .energy import alone_energy, swap_gain, tent_energy
 from .half_edges import following, preceding
 from .swaps import are_joined, link
@@ -79,8 +79,8 @@ def thin_out(draft, v, degree):
     while degree > 3:
         best, gain, h = np.int64(-1), -np.inf, np.int64(draft.leaving[v])
         for _ in range(degree):
-            apex, other = preceding(h), draft.corners[preceding(draft.twin[h])]
-            if not are_joined(draft.corners, draft.twin, apex, other):
+            apex, other = preceding(h), draft.corners[preceding(draft.twins[h])]
+            if not are_joined(draft.corners, draft.twins, apex, other):
                 g = swap_gain(draft, h)
                 if g > gain:
                     best, gain = h, g
@@ -98,14 +98,14 @@ def take_out(draft, n, v, h, one, two):
     a, b, c = draft.corners[following(h)], draft.corners[following(one)], draft.corners[following(two)]
     ab, bc, ca = following(h), following(one), following(two)
     before = tent_energy(draft, v, a, b, c, ab, bc, ca)
-    out_ab, out_bc, out_ca = draft.twin[ab], draft.twin[bc], draft.twin[ca]
+    out_ab, out_bc, out_ca = draft.twins[ab], draft.twins[bc], draft.twins[ca]
     for k in (h, one, two):  # all three: `put_in` fills two of them without noting what they were
         n = record(draft, n, k // 3)
     first = 3 * (h // 3)
     draft.corners[first], draft.corners[first + 1], draft.corners[first + 2] = a, b, c
-    link(draft.twin, first, out_ab)
-    link(draft.twin, first + 1, out_bc)
-    link(draft.twin, first + 2, out_ca)
+    link(draft.twins, first, out_ab)
+    link(draft.twins, first + 1, out_bc)
+    link(draft.twins, first + 2, out_ca)
     anchor(draft, first // 3)  # a, b and c must not leave by the two triangles that are free now
     return n, alone_energy(draft, a, b, c, first, first + 1, first + 2) - before
 
@@ -134,14 +134,14 @@ def put_in(draft, n, v, place, one, two):
     """Replace a triangle by three around v; two of them take the free places `one` and `two`."""
     n = record(draft, n, place)
     a, b, c = draft.corners[3 * place], draft.corners[3 * place + 1], draft.corners[3 * place + 2]
-    out_ab, out_bc, out_ca = draft.twin[3 * place], draft.twin[3 * place + 1], draft.twin[3 * place + 2]
+    out_ab, out_bc, out_ca = draft.twins[3 * place], draft.twins[3 * place + 1], draft.twins[3 * place + 2]
     for t, p, q, outside in ((place, a, b, out_ab), (one, b, c, out_bc), (two, c, a, out_ca)):
         draft.corners[3 * t], draft.corners[3 * t + 1], draft.corners[3 * t + 2] = v, p, q
-        link(draft.twin, 3 * t + 1, outside)
+        link(draft.twins, 3 * t + 1, outside)
         anchor(draft, t)
-    link(draft.twin, 3 * place + 2, 3 * one)
-    link(draft.twin, 3 * one + 2, 3 * two)
-    link(draft.twin, 3 * two + 2, 3 * place)
+    link(draft.twins, 3 * place + 2, 3 * one)
+    link(draft.twins, 3 * one + 2, 3 * two)
+    link(draft.twins, 3 * two + 2, 3 * place)
     return n
 
 
@@ -152,11 +152,11 @@ def descend(draft, n, stack, size, least):
     while size > 0 and swaps < MOST_SWAPS:
         size -= 1
         h = stack[size]
-        t = np.int64(draft.twin[h])
+        t = np.int64(draft.twins[h])
         if t < 0:
             continue
         gain = swap_gain(draft, h)
-        if gain <= least or are_joined(draft.corners, draft.twin, preceding(h), draft.corners[preceding(t)]):
+        if gain <= least or are_joined(draft.corners, draft.twins, preceding(h), draft.corners[preceding(t)]):
             continue
         n, change, swaps = swap_noted(draft, n, h), change - gain, swaps + 1
         for side in (h, following(h), t, following(t), preceding(h)):

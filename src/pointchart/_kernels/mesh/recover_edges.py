@@ -3,7 +3,7 @@
 from numba import njit
 
 from ..plane.areas import doubled_area
-from .drafts import first_around, next_around, swap_noted, undo
+from .editable import first_around, next_around, swap_noted, undo
 from .energy import swap_gain
 from .half_edges import following, preceding
 from .swaps import are_joined
@@ -42,7 +42,7 @@ def recover_one(draft, uv, a, b):
             h = swappable(draft, uv, a, b, h, made)
         if h < 0:
             break
-        made = draft.corners[preceding(h)], draft.corners[preceding(draft.twin[h])]
+        made = draft.corners[preceding(h)], draft.corners[preceding(draft.twins[h])]
         change -= swap_gain(draft, h)
         n = swap_noted(draft, n, h)
     undo(draft, n)
@@ -74,13 +74,13 @@ def swappable(draft, uv, a, b, h, made):
     """
     fallback = -1
     for _ in range(MOST_CROSSED):
-        t = draft.twin[h]
+        t = draft.twins[h]
         if t < 0:
             break
         p, q = draft.corners[h], draft.corners[t]
         c, d = draft.corners[preceding(h)], draft.corners[preceding(t)]
         is_convex = side(uv, c, p, d) > 0.0 and side(uv, d, q, c) > 0.0
-        if is_convex and not are_joined(draft.corners, draft.twin, preceding(h), d):
+        if is_convex and not are_joined(draft.corners, draft.twins, preceding(h), d):
             if c == a or d == b or (side(uv, a, b, c) >= 0.0) == (side(uv, a, b, d) >= 0.0):
                 return h
             if fallback < 0 and made not in ((p, q), (q, p)):

@@ -35,51 +35,51 @@ def angle_sum_measure(points, p, q, a, b):
 
 
 @njit(cache=True, nogil=True)
-def are_joined(corners, twin, h, other):
+def are_joined(corners, twins, h, other):
     """Tell whether the origin of half-edge h and the point `other` share an edge."""
     k = h
     while True:
         if corners[following(k)] == other or corners[preceding(k)] == other:
             return True
-        k = twin[preceding(k)]
+        k = twins[preceding(k)]
         if k < 0 or k == h:
             break
     if k == h:
         return False
-    k = twin[h]  # the boundary was met: the rest of the fan lies the other way round
+    k = twins[h]  # the boundary was met: the rest of the fan lies the other way round
     while k >= 0:
         k = following(k)
         if corners[following(k)] == other or corners[preceding(k)] == other:
             return True
-        k = twin[k]
+        k = twins[k]
     return False
 
 
 @njit(cache=True, nogil=True)
-def link(twin, h, k):
+def link(twins, h, k):
     """Make two half-edges opposite to each other; k may be -1."""
-    twin[h] = k
+    twins[h] = k
     if k >= 0:
-        twin[k] = h
+        twins[k] = h
 
 
 @njit(cache=True, nogil=True)
-def swap(corners, twin, h):
+def swap(corners, twins, h):
     """Replace edge ab, which half-edge h runs along, by the other diagonal cd of its two triangles.
 
     Triangles (a, b, c) and (b, a, d) become (d, b, c) and (c, a, d): each keeps two corners in their places.
     """
-    t = twin[h]
+    t = twins[h]
     h_back, t_back = preceding(h), preceding(t)
-    outside_ca, outside_db = twin[h_back], twin[t_back]  # bc and ad stay with their triangles
+    outside_ca, outside_db = twins[h_back], twins[t_back]  # bc and ad stay with their triangles
     corners[h], corners[t] = corners[t_back], corners[h_back]
-    link(twin, h, outside_db)
-    link(twin, t, outside_ca)
-    link(twin, h_back, t_back)
+    link(twins, h, outside_db)
+    link(twins, t, outside_ca)
+    link(twins, h_back, t_back)
 
 
 @njit(cache=True, nogil=True)
-def delaunay_swaps(points, corners, twin, stack, size, queued, swapped, barred):
+def delaunay_swaps(points, corners, twins, stack, size, queued, swapped, barred):
     """Swap edges until all are Delaunay in space; return how many swaps that took.
 
     It begins with the first `size` half-edges of the stack, which `queued` marks. An edge is left alone, and marked in
@@ -91,20 +91,20 @@ def delaunay_swaps(points, corners, twin, stack, size, queued, swapped, barred):
         size -= 1
         h = np.int64(stack[size])
         queued[h] = False
-        t = np.int64(twin[h])
+        t = np.int64(twins[h])
         if t < 0 or swapped[h // 3] >= MOST_SWAPS_OF_A_TRIANGLE:
             continue
         a, b, c, d = corners[h], corners[t], corners[preceding(h)], corners[preceding(t)]
         if angle_sum_measure(points, c, d, a, b) <= angle_sum_measure(points, a, b, c, d) + LEAST_GAIN:
             continue
-        if are_joined(corners, twin, preceding(h), d):
+        if are_joined(corners, twins, preceding(h), d):
             barred[h] = True
             continue
-        swap(corners, twin, h)
+        swap(corners, twins, h)
         total += 1
         swapped[h // 3] += 1
         for side in (h, following(h), t, following(t)):
-            other = twin[side]
+            other = twins[side]
             if other < 0:
                 continue
             # The caller may have queued either of the two; one name each keeps the stack within its room.

@@ -2,7 +2,7 @@
 
 from numba import njit
 
-from ..mesh.drafts import first_around, next_around, swap_noted
+from ..mesh.editable import first_around, next_around, swap_noted
 from ..mesh.half_edges import following, preceding
 from ..plane.exact_turns import turn
 
@@ -36,7 +36,7 @@ def insert_side(draft, ahead, a, b):
         p, q = draft.corners[h], draft.corners[following(h)]
         if ahead[p] == q or ahead[q] == p:
             return p
-        t = draft.twin[h]
+        t = draft.twins[h]
         d = draft.corners[preceding(t)]
         side = 0 if d == b else turn_of(draft.points, a, b, d)
         if side == 0 and d != b:
@@ -48,7 +48,7 @@ def insert_side(draft, ahead, a, b):
         h = following(t) if side > 0 else h
     along = k = preceding(h)
     for _ in range(n_right + 1):
-        k = following(draft.twin[k])
+        k = following(draft.twins[k])
     unfold(draft, k, n_right)
     unfold(draft, along, n_left)
     return -1
@@ -88,7 +88,7 @@ def unfold(draft, k, n):
             continue
         swap_noted(draft, 0, h)
         if passed > 0:
-            k, passed = following(draft.twin[k]), passed - 1
+            k, passed = following(draft.twins[k]), passed - 1
         else:
             n -= 1
 

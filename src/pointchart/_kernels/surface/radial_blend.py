@@ -43,15 +43,15 @@ def start_jet(coefficients, x, y, jet):
 
 
 @njit(cache=True, nogil=True)
-def surface_jet(centres, coefficients, x, y, spacing, order, jet):
+def surface_jet(centers, coefficients, x, y, spacing, order, jet):
     """Write the jet of a local surface up to `order`: fifth powers of distances, and a quadratic in the last rows.
 
     Its own unit of length is `spacing`.
     """
     x, y = x / spacing, y / spacing
-    start_jet(coefficients[len(centres) :], x, y, jet)
-    for i in range(len(centres)):
-        dx, dy = x - centres[i, 0], y - centres[i, 1]
+    start_jet(coefficients[len(centers) :], x, y, jet)
+    for i in range(len(centers)):
+        dx, dy = x - centers[i, 0], y - centers[i, 1]
         square = dx * dx + dy * dy
         r = math.sqrt(square)
         value, slope, bend = square * square * r, 5.0 * square * r, 15.0 * r
@@ -97,7 +97,7 @@ def divide(jet):
 
 
 @njit(cache=True, nogil=True)
-def evaluate(domain, discs, boxes, centres, coefficients, places, k, first, last, out):
+def evaluate(domain, discs, boxes, centers, coefficients, places, k, first, last, out):
     """Write number k of the jet of the blended surface at places first..last; nan outside the domain."""
     leaves = len(boxes) // 2
     order = 0 if k == 0 else 1 if k < 3 else 2
@@ -119,7 +119,7 @@ def evaluate(domain, discs, boxes, centres, coefficients, places, k, first, last
                 u, w = x - discs[d, 0], y - discs[d, 1]
                 weight_jet(u, w, discs[d, 2], weight)
                 if weight[0] > 0.0:
-                    surface_jet(centres[d], coefficients[d], u, w, discs[d, 3], order, local)
+                    surface_jet(centers[d], coefficients[d], u, w, discs[d, 3], order, local)
                     add_product(weight, local, total)
             v = next_box(v)
         divide(total)

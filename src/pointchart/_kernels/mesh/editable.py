@@ -9,12 +9,13 @@ from .half_edges import following, preceding
 from .swaps import link, swap
 
 
-class Draft(NamedTuple):
+# Kernels that were compiled for it are kept with its name: under another one, those kept before would not load.
+class EditableMesh(NamedTuple):
     """A mesh under work: `leaving` is a half-edge from each point, `journal` holds triangles as they were."""
 
     points: Any
     corners: Any
-    twin: Any
+    twins: Any
     leaving: Any
     journal: Any
 
@@ -25,7 +26,7 @@ def record(draft, n, t):
     draft.journal[n, 0] = t
     for k in range(3):
         draft.journal[n, 1 + k] = draft.corners[3 * t + k]
-        draft.journal[n, 4 + k] = draft.twin[3 * t + k]
+        draft.journal[n, 4 + k] = draft.twins[3 * t + k]
     return n + 1
 
 
@@ -37,12 +38,12 @@ def undo(draft, n):
         t = draft.journal[place, 0]
         for k in range(3):
             draft.corners[3 * t + k] = draft.journal[place, 1 + k]
-            draft.twin[3 * t + k] = draft.journal[place, 4 + k]
+            draft.twins[3 * t + k] = draft.journal[place, 4 + k]
     # Only when all are back: triangles that were not noted have to point at these again.
     for place in range(n):
         t = draft.journal[place, 0]
         for h in range(3 * t, 3 * t + 3):
-            link(draft.twin, h, draft.twin[h])
+            link(draft.twins, h, draft.twins[h])
         anchor(draft, t)
 
 
@@ -56,9 +57,9 @@ def anchor(draft, t):
 @njit(cache=True, nogil=True)
 def swap_noted(draft, n, h):
     """Swap the edge of half-edge h and note its triangles; return the next place in the journal."""
-    t = draft.twin[h]
+    t = draft.twins[h]
     n = record(draft, record(draft, n, h // 3), t // 3)
-    swap(draft.corners, draft.twin, h)
+    swap(draft.corners, draft.twins, h)
     anchor(draft, h // 3)
     anchor(draft, t // 3)
     return n
@@ -68,8 +69,8 @@ def swap_noted(draft, n, h):
 def first_around(draft, v):
     """Return the half-edge from v that all others around v follow anticlockwise; any, if v is an inner point."""
     start = k = np.int64(draft.leaving[v])
-    while draft.twin[k] >= 0:
-        k = np.int64(following(draft.twin[k]))
+    while draft.twins[k] >= 0:
+        k = np.int64(following(draft.twins[k]))
         if k == start:
             break
     return k
@@ -78,7 +79,7 @@ def first_around(draft, v):
 @njit(cache=True, nogil=True)
 def next_around(draft, h):
     """Return the half-edge that leaves the same point anticlockwise of h, or -1 past the boundary."""
-    return np.int64(draft.twin[preceding(h)])
+    return np.int64(draft.twins[preceding(h)])
 
 
 @njit(cache=True, nogil=True)
