@@ -176,7 +176,7 @@ def test_a_loop_of_other_points_is_refused():
     ],
     ids=["ball", "nearest", "star"],
 )
-@pytest.mark.parametrize("centre", [0, 77, 399])
+@pytest.mark.parametrize("center", [0, 77, 399])
 def test_neighbours_of_one_point_are_those_that_all_points_give(connect, scheme, reach, center):
     offset = np.array([5e5, 4e6, 100.0])
     one = around_point(RELIEF.points + offset, center, connect, scheme, **reach)
