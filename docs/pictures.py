@@ -265,8 +265,8 @@ def half_edges():
         panel.set(xlim=(-0.55, 3.4), ylim=(-0.3, 3.2))
     for t, middle in enumerate(middles):
         left.text(*middle, f"t = {t}", ha="center", va="center", color="#7b8790", fontsize=9)
-    for h, twins in enumerate(edges.twins):
-        _half_edge(left, places, middles, edges, h, INK if twins >= 0 else ACCENT, str(h))
+    for h, twin in enumerate(edges.twins):
+        _half_edge(left, places, middles, edges, h, INK if twin >= 0 else ACCENT, str(h))
     h = 5
     names = [(h, "h"), (3, "following(h)"), (4, "preceding(h)")]
     names += [(int(edges.twins[h]), "twins[h]"), (int(edges.twins[4]), "twins[preceding(h)]")]
