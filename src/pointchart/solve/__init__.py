@@ -1,1 +1,1 @@
-"""Sparse linear systems with fixed unknowns; knows no geometry."""
+"""Sparse linear systems with fixed unknowns, their solvers, and what has to be reached; no coordinates."""
