@@ -27,7 +27,8 @@ def test_every_kernel_has_a_case():
 def test_a_compiled_kernel_equals_its_python_function(name):
     kernel, arguments = kernels()[name.split()[0]], CASES[name]()
     compiled, plain = copy.deepcopy(arguments), copy.deepcopy(arguments)
-    answers = kernel(*compiled), kernel.py_func(*plain)
+    with np.errstate(over="ignore"):  # hashes wrap around
+        answers = kernel(*compiled), kernel.py_func(*plain)
     assert np.allclose(*map(numbers, answers), rtol=1e-12, atol=1e-14, equal_nan=True)
     for one, other in zip(arrays(compiled), arrays(plain), strict=True):
         # Compiled sums of single numbers are of double ones.

@@ -79,4 +79,16 @@ CASES = {
         np.zeros(N),
         np.zeros(N),
     ),
+    "tie_hash.hash_points": lambda: (SHAPE.points, SHAPE.points.view(np.uint64), 0, N, np.zeros(N, np.uint64)),
+    "tie_hash.mixed": lambda: (np.uint64(2**63 + 7), 2),
+    "tie_hash.move_points": lambda: (
+        SHAPE.points,
+        np.ones(N),
+        np.arange(N, dtype=np.uint64) << np.uint64(50),
+        0.1,
+        0,
+        N,
+        np.zeros((N, 3)),
+    ),
+    "tie_hash.shift_points": lambda: (SHAPE.points, SHAPE.points[3], 0, N, np.zeros((N, 3)), np.zeros(3, bool)),
 }

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .._check import check_points
+from .._kernels.points.tie_hash import shift_points
 from .._parallel import over_ranges
 from ..typing import Indices, Keys, Points
 from .morton import morton_keys
@@ -93,15 +94,10 @@ def _centered(points: Points) -> Points:
     center = points[np.argmin(np.abs(points - middle).max(axis=1))]
     centered, is_rounded = np.empty_like(points), np.zeros(3, bool)
 
-    def shift(first: int, last: int) -> None:
-        given = points[first:last]
-        moved = np.subtract(given, center, out=centered[first:last])
-        # The larger of two numbers, less their difference as rounded, is exact (Dekker 1971): one of these tells.
-        wrong = (given - moved != center) | (moved + center != given)
-        if wrong.any():
-            is_rounded[wrong.any(axis=0)] = True
-
-    over_ranges(shift, len(points))
+    over_ranges(
+        lambda first, last: shift_points(points, center, first, last, centered, is_rounded),
+        len(points),
+    )
     centered[:, is_rounded] = points[:, is_rounded]
     return centered
 

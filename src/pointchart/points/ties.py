@@ -2,13 +2,11 @@
 
 import numpy as np
 
+from .._kernels.points.tie_hash import hash_points, move_points
 from .._parallel import over_ranges
 from ..typing import Floats, Keys, Points
 
 TIE_BREAK = 1e-2  # spacings, a choice: over the rounding of grids in files, under what changes stars that have no ties
-MANTISSA, EXPONENT = np.uint64(52), np.uint64(0x7FF)  # bits of a double: places of the one, mask of the other
-ZERO = np.uint64(2**64 - 1)  # in place of the bits of 0: those of a scaled power of two may be 0
-GOLDEN = 0x9E3779B97F4A7C15  # 2^64 over the golden ratio: the step of SplitMix64 from one number to the next
 
 
 def tie_keys(points: Points) -> Keys:
@@ -25,15 +23,8 @@ def tie_keys(points: Points) -> Keys:
     """
     keys = np.empty(len(points), np.uint64)
 
-    def find(first: int, last: int) -> None:
-        bits = (points[first:last].T + 0.0).view(np.uint64)  # adding 0.0 makes -0.0 a 0.0
-        largest = (bits >> MANTISSA & EXPONENT).max(axis=0) << MANTISSA
-        key = np.zeros(last - first, np.uint64)
-        for axis in range(3):
-            key = _mixed(key + np.where(bits[axis] == 0, ZERO, bits[axis] - largest), axis + 1)
-        keys[first:last] = key
-
-    over_ranges(find, len(points))
+    bits = points.view(np.uint64)
+    over_ranges(lambda first, last: hash_points(points, bits, first, last, keys), len(points))
     return keys
 
 
@@ -64,19 +55,8 @@ def break_ties(points: Points, spacing: Floats, keys: Keys | None = None) -> Poi
     keys = tie_keys(points) if keys is None else keys
     moved = np.empty_like(points)
 
-    def move(first: int, last: int) -> None:
-        for axis in range(3):
-            # 53 bits make a number in [0, 2), less 1.
-            way = np.ldexp((_mixed(keys[first:last], axis + 1) >> np.uint64(11)).astype(np.float64), -52) - 1.0
-            moved[first:last, axis] = points[first:last, axis] + TIE_BREAK * spacing[first:last] * way
-
-    over_ranges(move, len(points))
+    over_ranges(
+        lambda first, last: move_points(points, spacing, keys, TIE_BREAK, first, last, moved),
+        len(points),
+    )
     return moved
-
-
-def _mixed(key: Keys, step: int) -> Keys:
-    """Return the number of SplitMix64 that is `step` after the state `key` (Steele, Lea and Flood 2014)."""
-    key = key + np.uint64(step * GOLDEN % 2**64)
-    key = (key ^ (key >> np.uint64(30))) * np.uint64(0xBF58476D1CE4E5B9)
-    key = (key ^ (key >> np.uint64(27))) * np.uint64(0x94D049BB133111EB)
-    return np.asarray(key ^ (key >> np.uint64(31)))
