@@ -1,11 +1,13 @@
+import pickle
 from dataclasses import replace
-from functools import partial
+from functools import partial, wraps
 
 import numpy as np
 import pytest
 
 from pointchart import (
     Chart,
+    InputError,
     SolveError,
     Swaps,
     keep_edges,
@@ -71,6 +73,31 @@ def test_swaps_that_are_wrapped_go_on_from_the_delaunay_mesh():
     assert np.array_equal(ours.triangles, theirs.triangles)
     plain, same = (reconstruct(roof.points, swap=swap) for swap in (swap_to_delaunay, wrapped(keep_edges)))
     assert np.array_equal(plain.triangles, same.triangles)
+
+
+@pytest.mark.parametrize("wrap", [partial, lambda rule: wraps(rule)(lambda *arguments: rule(*arguments))])
+def test_what_wraps_a_rule_by_functools_promises_what_the_rule_does(wrap):
+    ours, theirs = (reconstruct(RELIEF.points, chart=chart) for chart in (uv_of_points, wrap(uv_of_points)))
+    assert np.array_equal(ours.uv, theirs.uv)
+    ours, theirs = (reconstruct(RELIEF.points, swap=swap) for swap in (keep_edges, wrap(keep_edges)))
+    assert np.array_equal(ours.triangles, theirs.triangles)
+
+
+def test_a_rule_that_needs_a_map_says_what_to_promise_where_it_gets_none():
+    with pytest.raises(InputError, match=r"made without a map.* promise needs_map=True"):
+        reconstruct(RELIEF.points, chart=wrapped(uv_of_points))
+
+
+@pytest.mark.parametrize("rule", [uv_on_mesh, uv_low_stretch, uv_free_boundary, uv_of_points])
+def test_a_chart_comes_back_from_a_pickle_as_itself(rule):
+    assert pickle.loads(pickle.dumps(rule)) is rule
+    mine = pickle.loads(pickle.dumps(Chart(folded, name="of mine")))
+    assert (mine.map, mine.name) == (folded, "of mine")
+
+
+@pytest.mark.parametrize("rule", [swap_to_delaunay, swap_to_least_turn, keep_edges])
+def test_swaps_come_back_from_a_pickle_as_themselves(rule):
+    assert pickle.loads(pickle.dumps(rule)) is rule
 
 
 def test_swaps_from_the_triangulation_of_the_parameters_get_it_though_they_are_wrapped():

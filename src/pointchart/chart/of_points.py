@@ -22,5 +22,8 @@ def uv_of_points(
         If the mesh was assembled without neighbourhoods.
     """
     if meshed.neighborhoods is None or meshed.weights is None:
-        raise InputError("the mesh was made without a map, so it has no parameters of the points; use parameterize")
+        raise InputError(
+            "the mesh was made without a map, so it has no parameters of the points; use parameterize, or let "
+            "the Chart of a rule that calls this one promise needs_map=True"
+        )
     return map_points(points, loop, boundary_uv, meshed.neighborhoods, weights=meshed.weights, solver=solver)

@@ -1,9 +1,11 @@
 """Rules for the parameters of a finished mesh, and what they promise."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Any, SupportsIndex
 
 from ..map.convex_combination import Parameterization
+from ..mesh.decorated import name_in_module, present_as, rule_within
 from ..mesh.make import Meshed
 from ..solve.solver import Solver
 from ..typing import UV, Loop, Points
@@ -42,8 +44,11 @@ class Chart:
 
     def __post_init__(self) -> None:
         # A rule that decorates a function is called and documented as the function.
-        name = getattr(self.map, "__name__", type(self).__name__)
-        vars(self).update(__doc__=self.map.__doc__, __name__=name, __wrapped__=self.map)
+        present_as(self, self.map)
+
+    def __reduce_ex__(self, protocol: SupportsIndex) -> Any:
+        """Pickle a rule that decorates a function of a module by its name, as functions are."""
+        return name_in_module(self) or super().__reduce_ex__(protocol)
 
     def __call__(
         self, points: Points, loop: Loop, boundary_uv: UV, meshed: Meshed, solver: Solver | None
@@ -56,9 +61,12 @@ ChartRule = Chart | ChartMap
 
 
 def as_chart(rule: ChartRule) -> Chart:
-    """Return a rule with its promises; a plain function makes those that are checked.
+    """Return a rule with its promises; what wraps a rule makes the same, a plain function those that are checked.
 
     >>> as_chart(lambda *mesh: mesh).is_one_to_one
     True
     """
-    return rule if isinstance(rule, Chart) else Chart(rule)
+    inner = rule_within(rule, Chart)
+    if inner is None:
+        return Chart(rule)
+    return inner if inner is rule else replace(inner, map=rule)

@@ -1,11 +1,13 @@
 """Rules for edge swaps: what they begin from, and what they leave."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Any, SupportsIndex
 
 from numpy.typing import ArrayLike
 
 from ..typing import Triangles
+from .decorated import name_in_module, present_as, rule_within
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -58,8 +60,11 @@ class Swaps:
 
     def __post_init__(self) -> None:
         # A rule that decorates a function is called and documented as the function.
-        name = getattr(self.swap, "__name__", type(self).__name__)
-        vars(self).update(__doc__=self.swap.__doc__, __name__=name, __wrapped__=self.swap)
+        present_as(self, self.swap)
+
+    def __reduce_ex__(self, protocol: SupportsIndex) -> Any:
+        """Pickle a rule that decorates a function of a module by its name, as functions are."""
+        return name_in_module(self) or super().__reduce_ex__(protocol)
 
     def __call__(self, points: ArrayLike, triangles: Triangles) -> Swapped:
         """Swap edges of a mesh."""
@@ -70,9 +75,12 @@ SwapRule = Swaps | SwapFunction
 
 
 def as_swaps(rule: SwapRule) -> Swaps:
-    """Return a rule with what it promises; a plain function goes on from the Delaunay mesh.
+    """Return a rule with what it promises; what wraps a rule promises the same, a plain function what defaults say.
 
     >>> as_swaps(lambda points, triangles: Swapped(triangles, 0, True)).is_delaunay
     False
     """
-    return rule if isinstance(rule, Swaps) else Swaps(rule)
+    inner = rule_within(rule, Swaps)
+    if inner is None:
+        return Swaps(rule)
+    return inner if inner is rule else replace(inner, swap=rule)
