@@ -14,6 +14,7 @@ from pointchart import shapes
 from pointchart.clock import StageClock
 from pointchart.look.page import compose
 from pointchart.report.mesh_facts import mesh_facts
+from pointchart.report.record import RunReport, Stage
 from pointchart.runs.execution.measured import measure_mesh
 
 DRAWING_IN_SOFTWARE = [
@@ -36,7 +37,8 @@ def main() -> None:
             scan = shapes.sculpture(n).points
             result = pc.reconstruct(scan)
             points = scan[result.rows]
-            run = mesh_facts(measure_mesh(scan, np.arange(len(scan)), result, StageClock()), StageClock(), {})
+            meshed = measure_mesh(scan, np.arange(len(scan)), result, StageClock())
+            run = RunReport("mesh", stages=(Stage("mesh", 1.0),), facts=mesh_facts(meshed, {}))
             start = time.perf_counter()
             laid = compose(points, result, run, title="a scan", command="")
             laid_out = time.perf_counter() - start

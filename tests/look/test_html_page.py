@@ -3,6 +3,7 @@
 import io
 import json
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -15,11 +16,11 @@ from pointchart.look.camera import camera
 from pointchart.look.page import compose
 from pointchart.look.page.colorings import Shade, mesh_shades
 from pointchart.look.page.histograms import quality_histograms
-from pointchart.look.page.pack import packed, quantized, steps
 from pointchart.look.page.thinned import thin
 from pointchart.mesh.connectivity import boundary_loops, fans, half_edges
 from pointchart.report.checks import certificate_checks
 from pointchart.report.mesh_facts import mesh_facts
+from pointchart.report.record import RunReport, Stage
 from pointchart.runs.execution.measured import measure_mesh
 
 ACCENT = np.array([0xC8, 0x55, 0x3D])
@@ -32,8 +33,12 @@ def made():
     points = shapes.sculpture(1500).points
     result = pc.reconstruct(points)
     meshed = measure_mesh(points, np.arange(len(points)), result, StageClock())
-    run = mesh_facts(meshed, StageClock(), {"scan": "a.ply"})
-    return points[result.rows], result, run
+    return points[result.rows], result, report_of(meshed, {"scan": "a.ply"})
+
+
+def report_of(meshed, options):
+    checks = tuple(certificate_checks(meshed.result.certificate))
+    return RunReport("mesh", checks=checks, stages=(Stage("mesh", 1.0),), facts=mesh_facts(meshed, options))
 
 
 @pytest.fixture(scope="module")
@@ -152,9 +157,9 @@ def test_the_checklist_is_that_of_the_run(opened, made):
     checks = opened.locator("#checks li")
     passed = checks.evaluate_all("rows => rows.filter(r => r.className === 'passed').map(r => r.textContent)")
     assert passed == [check.text for check in certificate_checks(result.certificate) if check.passed]
-    assert run["certificate"]["disc"]
+    assert run.facts["certificate"]["disc"]
     assert opened.locator("#verdict").inner_text() == "certified disc, uv one-to-one"
-    assert f"{run['certificate']['points']:,} points" in opened.locator("#summary").inner_text()
+    assert f"{run.facts['certificate']['points']:,} points" in opened.locator("#summary").inner_text()
 
 
 def test_the_arrays_come_back(opened, made):
@@ -284,7 +289,8 @@ def test_a_place_to_look_at_comes_to_the_middle_of_both_views(made, browser, tmp
     points, result, run = made
     vertex = int(np.argmax(points[:, 2]))
     doubt = {"points": 3, "length": 1.0, "spacings": 9.0, "at_vertex": vertex}
-    doubted = run | {"boundary": run["boundary"] | {"doubts": [doubt]}}
+    boundary = run.facts["boundary"] | {"doubts": [doubt]}
+    doubted = replace(run, facts=run.facts | {"boundary": boundary})
     path = tmp_path / "doubt.html"
     path.write_text(compose(points, result, doubted, title="a", command="").text, "utf-8")
     page = browser.new_page(viewport={"width": 1000, "height": 800})
@@ -374,25 +380,8 @@ def test_thirty_thousand_points_take_under_five_megabytes():
     result = pc.reconstruct(grid.points)
     points = grid.points[result.rows]
     meshed = measure_mesh(points, np.arange(len(points)), result, StageClock())
-    run = mesh_facts(meshed, StageClock(), {})
+    run = report_of(meshed, {})
     assert len(compose(points, result, run, title="a", command="").text.encode()) < 5e6
-
-
-def test_numbers_are_rounded_to_half_a_level():
-    values = np.random.default_rng(0).uniform(-3.0, 5.0, 1000)
-    back = -3.0 + quantized(values, -3.0, 8.0) * (8.0 / 65535)
-    assert np.abs(back - values).max() <= 4.0 / 65535 * (1 + 1e-9)
-
-
-def test_steps_add_up_to_the_indices():
-    indices = np.random.default_rng(0).integers(0, 2**31, 1000)
-    coded = steps(indices).astype(np.int64)
-    assert np.array_equal(np.cumsum(np.where(coded % 2, -(coded + 1) // 2, coded // 2)), indices)
-
-
-def test_arrays_of_a_page_lie_one_after_the_other():
-    table, _ = packed({"a": np.zeros((4, 3), np.uint16), "b": np.zeros(2, np.float32)})
-    assert [(row["offset"], row["length"]) for row in table] == [(0, 12), (24, 2)]
 
 
 def test_deviations_of_a_plane_are_zero_and_of_a_bump_point_outwards():
@@ -492,6 +481,10 @@ def test_the_page_of_a_surface_tells_its_deviation(tmp_path, command_line, brows
     page.wait_for_function("document.body.dataset.ready === 'yes'")
     surface = json.loads(report.read_text())["surface"]
     assert page.input_value("#shade") == "deviation"
+    # The parameters that the page shows are corrected ones, of which nothing was proved.
+    assert "one part" in page.locator("#checks").text_content()
+    assert page.locator("#verdict").inner_text() == "certified disc"
+    assert "one-to-one" not in page.locator("body").inner_text()
     assert " \N{MULTIPLICATION SIGN} ".join(map(str, surface["control_points"])) in page.locator("#fit").inner_text()
     low, high = page.evaluate("content.shades[0].range")
     assert max(-low, high) == pytest.approx(surface["deviation"]["max"])

@@ -7,10 +7,12 @@ import pytest
 
 from pointchart import FormatError, SolveError, StageClock, leave_gaps_open, reconstruct, shapes
 from pointchart.gaps.bridges import Bridge
-from pointchart.report.as_json import write_json
+from pointchart.report.as_json import as_json, writing_json
 from pointchart.report.mesh_facts import mesh_facts
 from pointchart.report.mesh_notes import boundary_notes, intersection_notes
+from pointchart.report.record import RunReport
 from pointchart.runs.execution.measured import measure_mesh
+from pointchart.runs.execution.written import stages_of
 
 CONTRACT = {
     "boundary": {"points", "length", "origin", "loops", "gaps", "doubts", "tried_before"},
@@ -36,7 +38,7 @@ def facts_of(points, result, clock=None, options=None, *, boundary_given=False):
     """Return what is told of a mesh of a whole scan."""
     clock = clock or StageClock()
     meshed = measure_mesh(points, np.arange(len(points)), result, clock, is_boundary_given=boundary_given)
-    return mesh_facts(meshed, clock, options or {})
+    return as_json(RunReport("mesh", stages=stages_of(clock), facts=mesh_facts(meshed, options or {})))
 
 
 def boundary_lines(result, points, *, found):
@@ -223,7 +225,7 @@ def test_a_mesh_that_passes_through_itself_is_reported_with_the_place(sheet):
     eight = np.c_[np.sin(turn), points[:, 1], np.sin(turn) * np.cos(turn)]
     for scan, count in ((points, 0), (eight, 1)):
         meshed = measure_mesh(scan, np.arange(len(scan)), result, StageClock())
-        found = mesh_facts(meshed, StageClock(), {})["quality"]["self_intersections"]
+        found = mesh_facts(meshed, {})["quality"]["self_intersections"]
         assert (found["pairs"] > 0, found["count"], len(found["places"])) == (count > 0, count, count)
         assert len(intersection_notes(meshed.intersections)) == count
     line = intersection_notes(meshed.intersections)[0].text
@@ -232,10 +234,15 @@ def test_a_mesh_that_passes_through_itself_is_reported_with_the_place(sheet):
 
 
 def test_a_report_comes_back_from_its_file(run, tmp_path):
-    write_json(tmp_path / "run.json", run[2])
+    report = RunReport("mesh", facts=run[2])
+    with writing_json(tmp_path / "run.json", report):
+        assert not (tmp_path / "run.json").exists()
     assert json.loads((tmp_path / "run.json").read_text(encoding="utf-8")) == run[2]
 
 
 def test_a_report_into_a_missing_folder_is_refused(tmp_path):
-    with pytest.raises(FormatError, match="it cannot be written"):
-        write_json(tmp_path / "none" / "run.json", {})
+    with (
+        pytest.raises(FormatError, match="it cannot be written"),
+        writing_json(tmp_path / "none" / "run.json", RunReport("mesh")),
+    ):
+        pass

@@ -7,7 +7,6 @@ import numpy as np
 
 from .._memory import peak_memory_mb
 from ..boundary import Candidate, perimeter
-from ..clock import StageClock
 from ..gaps.bridges import Bridge
 from ..mesh.mesh_quality import MeshQuality, Spread
 from ..pipeline import Reconstruction
@@ -49,13 +48,12 @@ class MeshedScan:
         return self.scan[self.rows[self.result.rows]]
 
 
-def mesh_facts(meshed: MeshedScan, clock: StageClock, options: dict[str, Any]) -> dict[str, Any]:
+def mesh_facts(meshed: MeshedScan, options: dict[str, Any]) -> dict[str, Any]:
     """Gather what a run did."""
     result, evidence = meshed.result, meshed.result.evidence
     return {
         "points": _points(meshed),
         "options": options,
-        "stages": stage_facts(clock),
         "peak_memory_mb": peak_memory_mb(),
         "boundary": _boundary(meshed),
         "solve": solve_facts(evidence.first_solve or evidence.solve),
@@ -105,11 +103,6 @@ def certificate_facts(proof: Certificate) -> dict[str, Any]:
         "points": proof.n_points,
         "triangles": proof.n_triangles,
     }
-
-
-def stage_facts(clock: StageClock) -> list[dict[str, Any]]:
-    """Return the time of each stage."""
-    return [{"name": name, "seconds": round(seconds, 4)} for name, seconds in clock.seconds.items()]
 
 
 def solve_facts(solution: Solution) -> dict[str, Any]:

@@ -18,7 +18,8 @@ from numpy.typing import NDArray
 from ...io import replacing
 from ...mesh.connectivity import boundary_loops, half_edges
 from ...pipeline import Reconstruction
-from ...report.checks import certificate_checks
+from ...report.as_json import as_json
+from ...report.record import RunReport
 from ...typing import Floats, Indices, Points, Triangles
 from ..camera import camera, upright_axes, upward
 from ..color_scales import BELOW_AND_ABOVE, PALE_TO_DARK, counted
@@ -67,7 +68,7 @@ class HtmlPage:
 def compose(
     points: Points,
     result: Reconstruction,
-    run: dict[str, Any],
+    report: RunReport,
     *,
     title: str,
     command: str,
@@ -82,8 +83,8 @@ def compose(
     points : (n, 3) array
         The vertices of the mesh.
     result : Reconstruction
-    run : dict
-        What `mesh_facts` gives.
+    report : RunReport
+        With the facts that `mesh_facts` gives.
     title : str
         Name of the scan.
     command : str
@@ -91,7 +92,7 @@ def compose(
     figure : str, optional
         The command line that draws a figure of what was written; the page adds from where.
     deviation : (n,) array, optional
-        Signed, from a surface that was fitted, of which `run` tells.
+        Signed, from a surface that was fitted, of which the report tells.
     most : int
         Points to draw; of larger meshes fewer are shown.
 
@@ -123,11 +124,11 @@ def compose(
         "stone": STONE.tolist(),
         "checks": [
             {"passed": bool(check.passed), "measured": check.passed is None, "text": check.text}
-            for check in certificate_checks(result.certificate)
+            for check in report.checks
         ],
-        "places": _places(points, run),
+        "places": _places(points, report.facts),
         "histograms": quality_histograms(points, result.triangles, result.uv, spacing),
-        "run": run,
+        "run": as_json(report),
     }
     return HtmlPage(_filled(title, content, data), len(points), len(shown.kept))
 
@@ -154,11 +155,11 @@ def _arrays(result: Reconstruction, shown: Thinned) -> dict[str, NDArray[Any]]:
     }
 
 
-def _places(points: Points, run: dict[str, Any]) -> list[dict[str, Any]]:
+def _places(points: Points, facts: dict[str, Any]) -> list[dict[str, Any]]:
     """List what is worth a look: where the mesh is in doubt or passes through itself, then gaps of the scan."""
-    doubts = [("long edges where the scan has no gap", bridge) for bridge in run["boundary"]["doubts"]]
-    gaps = [("a gap of the scan", bridge) for bridge in run["boundary"]["gaps"]]
-    crossings = run["quality"]["self_intersections"]["places"]
+    doubts = [("long edges where the scan has no gap", bridge) for bridge in facts["boundary"]["doubts"]]
+    gaps = [("a gap of the scan", bridge) for bridge in facts["boundary"]["gaps"]]
+    crossings = facts["quality"]["self_intersections"]["places"]
     return [
         *({"what": what, "is_doubt": True, "at": points[bridge["at_vertex"]].tolist()} for what, bridge in doubts),
         *({"what": "the mesh passes through itself", "is_doubt": True, "at": place} for place in crossings),

@@ -29,22 +29,22 @@ def execute(run: CheckRun, clock: StageClock) -> RunReport:
     uv = read.uv
     with clock("certify"):
         proof = certify(read.points, read.triangles, uv=uv, holes=run.holes)
-    facts = {"certificate": certificate_facts(proof)}
-    with writing_json(run.report, facts):
-        pass
     failure = None
     if not proof.is_as_asked or (uv is not None and not proof.is_one_to_one):
         failure = InputError(f"{run.mesh} is {summary(proof)}; {_remedy(proof, run.holes)}")
     left = f"; {n_left} points of {run.points} are not in it" if n_left else ""
-    return RunReport(
+    report = RunReport(
         run.command,
         checks=tuple(certificate_checks(proof)),
         notes=() if failure else (Note(f"{run.mesh}: {summary(proof)}{left}"),),
         stages=stages_of(clock),
         files=tuple(untold(report=run.report)),
-        facts=facts,
+        facts={"certificate": certificate_facts(proof)},
         failure=failure,
     )
+    with writing_json(run.report, report):
+        pass
+    return report
 
 
 def _remedy(proof: Certificate, holes: int) -> str:

@@ -1,5 +1,6 @@
 """A demo run: simulate, mesh, write."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -31,8 +32,11 @@ def execute(run: DemoRun, clock: StageClock) -> RunReport:
     scan = shapes.demo_scan().points
     result = reconstruct(scan, clock=clock)
     meshed = measure_mesh(scan, np.arange(len(scan)), result, clock)
-    points, facts = meshed.points, mesh_facts(meshed, clock, options_facts(run))
-    page = compose(points, result, facts, title="a simulated laser scan", command=command_line(run))
+    points, facts = meshed.points, mesh_facts(meshed, options_facts(run))
+    checks = tuple(certificate_checks(result.certificate))
+    report = RunReport(run.command, checks=checks, stages=stages_of(clock), facts=facts)
+    with clock("page"):
+        page = compose(points, result, report, title="a simulated laser scan", command=command_line(run))
     with replacing(cloud) as scan_file, replacing(picture) as picture_file, writing_page(html, page):
         # Each file is in its place only when all of them are written.
         write_mesh(scan_file, scan, np.empty((0, 3), np.int64))
@@ -45,8 +49,7 @@ def execute(run: DemoRun, clock: StageClock) -> RunReport:
         WrittenFile(picture, "picture", "the scan, its parameters and its mesh"),
         WrittenFile(html, "html", f"the same to turn and point at; {page.size_line}"),
     )
-    checks = tuple(certificate_checks(result.certificate))
-    return RunReport(run.command, checks=checks, stages=stages_of(clock), files=files, facts=facts)
+    return replace(report, stages=stages_of(clock), files=files)
 
 
 def _make_folder(out: Path) -> None:

@@ -2,7 +2,6 @@
 
 from contextlib import ExitStack
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 
@@ -15,7 +14,8 @@ from ...look.page import PAGE_SUFFIXES, compose, writing_page
 from ...look.page.html_page import HtmlPage
 from ...look.paint import PICTURE_SUFFIXES
 from ...report.as_json import writing_json
-from ...report.mesh_facts import MeshedScan, mesh_facts
+from ...report.checks import certificate_checks
+from ...report.mesh_facts import MeshedScan, certificate_facts, mesh_facts
 from ...report.mesh_notes import boundary_notes, intersection_notes
 from ...report.record import Note, RunReport, WrittenFile
 from ...report.surface_facts import surface_facts
@@ -104,27 +104,30 @@ def _written(
         inputs.scan.points, inputs.rows, surfaced.reconstruction, clock, is_boundary_given=run.given.is_given
     )
     measure = allowed, run.surface.share(), run.surface.unit
-    facts = mesh_facts(meshed, clock, options_facts(run))
-    facts["surface"] = surface_facts(surfaced, meshed.points, *measure)
-    page = _page(run, meshed, surfaced, facts, clock)
-    with ExitStack() as stack, writing_json(run.told.report, facts), writing_page(run.told.html, page):
-        write_beside(run, inputs, surfaced, allowed, stack)
-        write_surface(run.files.out, surfaced.fit.surface, surfaced.loops, unit=run.surface.unit)
+    facts = mesh_facts(meshed, options_facts(run)) | {"surface": surface_facts(surfaced, meshed.points, *measure)}
     notes = [*choices, *boundary_notes(surfaced.reconstruction, meshed.points, found=not run.given.is_given)]
     notes += [*intersection_notes(meshed.intersections), *surface_notes(surfaced, *measure)]
-    files = tuple(_files(run, page))
-    return RunReport(run.command, notes=tuple(notes), stages=stages_of(clock), files=files, facts=facts)
+    report = RunReport(run.command, notes=tuple(notes), stages=stages_of(clock), facts=facts)
+    page = _page(run, meshed, surfaced, report, clock)
+    with ExitStack() as stack, writing_json(run.told.report, report), writing_page(run.told.html, page):
+        write_beside(run, inputs, surfaced, allowed, stack)
+        write_surface(run.files.out, surfaced.fit.surface, surfaced.loops, unit=run.surface.unit)
+    return replace(report, stages=stages_of(clock), files=tuple(_files(run, page)))
 
 
 def _page(
-    run: FitRun, meshed: MeshedScan, surfaced: SurfacedScan, facts: dict[str, Any], clock: StageClock
+    run: FitRun, meshed: MeshedScan, surfaced: SurfacedScan, report: RunReport, clock: StageClock
 ) -> HtmlPage | None:
     """Lay out the page, if one is asked for: over the parameters of the surface, which the fit has corrected."""
     if run.told.html is None:
         return None
     made, off = replace(surfaced.reconstruction, uv=surfaced.fit.uv), surfaced.deviation.signed
+    # What was proved of the parameters of the mesh does not hold for those that the fit has corrected.
+    proof = replace(made.certificate, coinciding_uv=None, flat_or_folded_uv=None, simple_uv_boundary=None)
+    facts = report.facts | {"certificate": certificate_facts(proof)}
+    report = replace(report, checks=tuple(certificate_checks(proof)), facts=facts)
     with clock("page"):
-        return compose(meshed.points, made, facts, deviation=off, **page_words(run, run.source.scan, run.files.out))
+        return compose(meshed.points, made, report, deviation=off, **page_words(run, run.source.scan, run.files.out))
 
 
 def _files(run: FitRun, page: HtmlPage | None) -> list[WrittenFile]:

@@ -1,5 +1,7 @@
 """A mesh run: read, mesh, write."""
 
+from dataclasses import replace
+
 from ..._parallel import on_threads
 from ...clock import StageClock
 from ...errors import points_called
@@ -28,21 +30,15 @@ def execute(run: MeshRun, clock: StageClock) -> RunReport:
     with on_threads(run.running.threads):
         inputs, result = _meshed(run, clock)
         meshed = measure_mesh(inputs.scan.points, inputs.rows, result, clock, is_boundary_given=run.given.is_given)
-        facts, page = mesh_facts(meshed, clock, options_facts(run)), None
+        report, page = _reported(run, inputs, meshed, clock), None
         if run.told.html is not None:
             with clock("page"):
-                page = compose(meshed.points, result, facts, **page_words(run, run.source.scan, run.out))
+                page = compose(meshed.points, result, report, **page_words(run, run.source.scan, run.out))
         attributes = _attributes(run, inputs, meshed)
-        with writing_json(run.told.report, facts), writing_page(run.told.html, page):
+        with writing_json(run.told.report, report), writing_page(run.told.html, page):
             said = write_mesh(run.out, meshed.points, result.triangles, uv=result.uv, attributes=attributes)
-    return RunReport(
-        run.command,
-        checks=tuple(certificate_checks(result.certificate)),
-        notes=(*_notes(meshed, inputs), *map(Note, said)),
-        stages=stages_of(clock),
-        files=tuple(_files(run, result, page)),
-        facts=facts,
-    )
+    notes, files = (*report.notes, *map(Note, said)), tuple(_files(run, result, page))
+    return replace(report, notes=notes, stages=stages_of(clock), files=files)
 
 
 def _meshed(run: MeshRun, clock: StageClock) -> tuple[Inputs, Reconstruction]:
@@ -66,6 +62,17 @@ def _meshed(run: MeshRun, clock: StageClock) -> tuple[Inputs, Reconstruction]:
             chart=CHARTS[run.mesh.uv],
             clock=clock,
         )
+
+
+def _reported(run: MeshRun, inputs: Inputs, meshed: MeshedScan, clock: StageClock) -> RunReport:
+    """Tell of a mesh that is yet to be written."""
+    return RunReport(
+        run.command,
+        checks=tuple(certificate_checks(meshed.result.certificate)),
+        notes=tuple(_notes(meshed, inputs)),
+        stages=stages_of(clock),
+        facts=mesh_facts(meshed, options_facts(run)),
+    )
 
 
 def _attributes(run: MeshRun, inputs: Inputs, meshed: MeshedScan) -> Attributes:

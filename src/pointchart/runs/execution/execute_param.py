@@ -1,6 +1,6 @@
 """A param run: read, map, write."""
 
-from typing import Any
+from dataclasses import replace
 
 from ..._parallel import on_threads
 from ...clock import StageClock
@@ -9,7 +9,7 @@ from ...map.convex_combination import Parameterization
 from ...map.scan_parameters import parameterize_scan
 from ...mesh.planar_delaunay import coinciding
 from ...report.as_json import writing_json
-from ...report.mesh_facts import solve_facts, stage_facts
+from ...report.mesh_facts import solve_facts
 from ...report.record import Note, RunReport, WrittenFile
 from ...typing import UV
 from ..inputs import Inputs, check_outputs, read_inputs
@@ -23,16 +23,16 @@ def execute(run: ParamRun, clock: StageClock) -> RunReport:
     with on_threads(run.running.threads):
         inputs, uv, mapped = _mapped(run, clock)
         solution, n_doubled = mapped.solution, len(coinciding(mapped.uv))
-        facts: dict[str, Any] = {"options": options_facts(run), "stages": stage_facts(clock)}
-        facts |= {"solve": solve_facts(solution), "coinciding_uv": n_doubled}
-        with writing_json(run.report, facts):
+        facts = {"options": options_facts(run), "solve": solve_facts(solution), "coinciding_uv": n_doubled}
+        report = RunReport(run.command, stages=stages_of(clock), facts=facts)
+        with writing_json(run.report, report):
             said = write_uv(run.out, uv, points=inputs.points, attributes=carried(inputs, inputs.rows))
     holds = (
         f"parameters of {len(uv)} points, {n_doubled} of which coincide; {solution.unknowns} unknowns, "
         f"{solution.method} solver, residual {solution.residual:.1e}"
     )
     files = (WrittenFile(run.out, "out", holds), *untold(report=run.report))
-    return RunReport(run.command, notes=tuple(map(Note, said)), stages=stages_of(clock), files=files, facts=facts)
+    return replace(report, notes=tuple(map(Note, said)), files=files)
 
 
 def _mapped(run: ParamRun, clock: StageClock) -> tuple[Inputs, UV, Parameterization]:

@@ -40,8 +40,10 @@ function tell() {
   $("summary").textContent = `${whole(proof.points)} points, ${whole(proof.triangles)} triangles, boundary of ${whole(run.boundary.points)} points`;
   const holes = ["", " with a hole"][proof.holes] ?? ` with ${proof.holes} holes`, disc = `certified disc${holes}`;
   const isOneToOne = proof.as_asked && proof.uv_distinct && proof.uv_positive && proof.uv_boundary_simple;
-  $("verdict").textContent = (proof.as_asked ? disc : "no disc") + (isOneToOne ? ", uv one-to-one" : ", uv not one-to-one");
-  $("verdict").classList.toggle("failed", !isOneToOne);
+  const isOfUV = proof.uv_distinct !== null, isFailed = isOfUV ? !isOneToOne : !proof.as_asked;
+  const ofUV = isOfUV ? (isOneToOne ? ", uv one-to-one" : ", uv not one-to-one") : "";
+  $("verdict").textContent = (proof.as_asked ? disc : "no disc") + ofUV;
+  $("verdict").classList.toggle("failed", isFailed);
   $("checks").append(...content.checks.map((check) => made("li", { textContent: check.text, className: check.measured ? "measured" : check.passed ? "passed" : "failed" })));
   const all = run.stages.reduce((sum, stage) => sum + stage.seconds, 0), longest = Math.max(...run.stages.map((stage) => stage.seconds));
   const rows = run.stages.map((stage) => {
