@@ -39,7 +39,7 @@ def add_cloud(session: Session) -> None:
         lines.append(f"{len(session.scan.triangles):,} triangles of the file are not looked at")
     gui = session.server.gui
     gui.add_html(said_html(lines))
-    up = gui.add_dropdown("Upwards", (CHOSEN, *AXES), hint="The axis of the file that is upwards on the session.")
+    up = gui.add_dropdown("Upwards", (CHOSEN, *AXES), hint="The axis of the file that is upwards on the page.")
 
     @up.on_update
     def _(_: viser.GuiEvent[Any]) -> None:
