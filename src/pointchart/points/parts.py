@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .._kernels.solve.graphs import join_parts
+from .._kernels.points.forest import join_parts
 from ..errors import InputError, Remedy
 from ..typing import Floats, Indices, Points
 from .cloud import prepare
