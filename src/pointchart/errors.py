@@ -11,6 +11,8 @@ from typing import TYPE_CHECKING, Any, Self
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
+NO_MEMORY = "not enough memory for this scan; thin it, or use a machine with more"
+
 
 class Remedy(StrEnum):
     """What may help, in the words of the library; whoever has options for it says which."""

@@ -3,8 +3,6 @@
 import numpy as np
 
 from kernel_cases.samples import (
-    AROUND,
-    ASTRAY,
     RAGGED,
     SHAPE,
     STAR,
@@ -12,10 +10,8 @@ from kernel_cases.samples import (
     M,
     N,
     bools,
-    draft,
     int32s,
     ints,
-    mixed_draft,
 )
 from pointchart._kernels.agreement import agreed_triangles, manifold_patches
 from pointchart._kernels.unsigned import unsigned
@@ -68,18 +64,6 @@ CASES = {
         int(STAR.indices[1]),
     ),
     "link_trust.agreement": lambda: (STAR.indptr, STAR.indices, STAR.is_open, 0, N, bools(len(STAR.indices))),
-    "link_trust.is_around": lambda: (draft(), int(SHAPE.boundary[0]), int(SHAPE.boundary[1])),
-    "link_trust.is_around an inner point": lambda: (draft(), ASTRAY, int(SHAPE.boundary[1])),
-    "link_trust.is_beyond": lambda: (draft(), int(SHAPE.boundary[0]), int(SHAPE.boundary[2])),
-    "link_trust.is_beyond an inner point": lambda: (draft(), ASTRAY, int(SHAPE.boundary[1])),
-    "link_trust.mark_far": lambda: (
-        mixed_draft(),
-        *AROUND.table,
-        2,
-        20,
-        np.arange(N, dtype=np.int32)[::-2].copy(),
-        bools(N),
-    ),
     "agreed_triangles.add_corner_angles": lambda: (SHAPE.points, unsigned(RAGGED.triangles), np.zeros(N)),
     "agreed_triangles.circumradius": lambda: (SHAPE.points, 0, 1, 2),
     "manifold_patches.close_up": lambda: (

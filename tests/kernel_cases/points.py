@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from kernel_cases.samples import AROUND, NORMALS, SHAPE, N, bools, ints
+from kernel_cases.samples import AROUND, NORMALS, SHAPE, STEP, N, bools, int32s, ints
 from pointchart._kernels.points import box_tree, inversion
 
 ROUND = np.arange(6) + 0.3
@@ -25,6 +25,8 @@ CASES = {
         N,
         ints(N),
     ),
+    "forest.join": lambda: (np.array([0, 0, 1, 3, 3], dtype=np.int32), 4, 2),
+    "forest.join_parts": lambda: (SHAPE.points, AROUND.indptr, AROUND.indices, STEP, 0.8, int32s(N)),
     "box_tree.bound_boxes": lambda: (SHAPE.points, np.zeros((16, 3)), np.zeros((16, 3))),
     "box_tree.find_nearest": lambda: (
         SHAPE.points,

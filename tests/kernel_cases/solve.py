@@ -3,7 +3,7 @@
 import numpy as np
 import scipy.sparse as sp
 
-from kernel_cases.samples import AROUND, SHAPE, STAR, STEP, WITHIN, N, bools, int32s, ints
+from kernel_cases.samples import SHAPE, STAR, WITHIN, N, bools, int32s, ints
 from pointchart._kernels.solve import coarse_points, cycles, galerkin
 from pointchart._kernels.unsigned import unsigned
 from pointchart.solve.hierarchy import split
@@ -121,8 +121,6 @@ CASES = {
     ),
     "galerkin.transpose": lambda: (*TO_FINE, ints(N_COARSE + 1), int32s(N_SHARES), np.zeros(N_SHARES)),
     "graphs.dominators": lambda: (TREE[0], *GRAPH, 0, np.arange(5), np.array([0, -1, -1, -1, -1])),
-    "graphs.join": lambda: (np.array([0, 0, 1, 3, 3], dtype=np.int32), 4, 2),
-    "graphs.join_parts": lambda: (SHAPE.points, AROUND.indptr, AROUND.indices, STEP, 0.8, int32s(N)),
     "graphs.reduce_rows": lambda: (
         STAR.indptr,
         STAR.indices,

@@ -48,7 +48,7 @@ class AgreedSurface:
     spare_edges: Indices
 
     def without(self, dropped: Mask) -> "AgreedSurface":
-        """Return the patchwork without some triangles."""
+        """Return the agreed surface without some triangles."""
         if not dropped.any():
             return self
         number = np.cumsum(~dropped, dtype=np.int32) - 1

@@ -12,7 +12,7 @@ from ..boundary import perimeter, reversed_loop
 from ..errors import InputError, PointchartError
 from ..io import read_loop, read_scan, write_loop
 from ..plane.polygons import is_inside
-from ..points.places import place_of
+from ..points.places import coordinates_of
 from ..runs.boundary_run import BoundaryRun
 from ..typing import UV, Floats, Indices
 from .html import said_html
@@ -148,7 +148,7 @@ class BoundaryStep:
             hand.change(dropped(hand.loop, nearest_of(self._session.scan.points, hand.loop, row)))
 
     def _name_outer(self, row: int, _: viser.SceneClickEvent) -> None:
-        self.step.controls.set("outer", place_of(self._session.scan.points, row).strip("()").replace(" ", ""))
+        self.step.controls.set("outer", coordinates_of(self._session.scan.points, row))
         self._session.loop_changed()
 
     def _draw_polygon(self, camera: Camera, polygon: UV) -> None:

@@ -11,6 +11,7 @@ from ..errors import InputError
 from ..look.camera import AXES
 from ..map.scan_parameters import default_stars
 from ..map.weights import mean_value
+from ..points.places import place_of
 from ..points.surroundings import NEAREST
 from ..runs.option_values import Neighbors
 from ..runs.param_run import ParamRun
@@ -32,14 +33,15 @@ def add_cloud(session: Session) -> None:
     if drawn < len(points):
         lines[0] += f"; {drawn:,} of them drawn, clicks find them all"
     extent = " x ".join(f"{side:.4g}" for side in np.ptp(points, axis=0))
-    lines += [f"extent {extent}", f"from {_place(points.min(axis=0))} to {_place(points.max(axis=0))}"]
+    ends = np.array([points.min(axis=0), points.max(axis=0)])
+    lines += [f"extent {extent}", f"from {place_of(ends, 0)} to {place_of(ends, 1)}"]
     if session.scan.attributes:
         lines.append(f"carries {', '.join(session.scan.attributes)}")
     if len(session.scan.triangles):
         lines.append(f"{len(session.scan.triangles):,} triangles of the file are not looked at")
     gui = session.server.gui
     gui.add_html(said_html(lines))
-    up = gui.add_dropdown("Upwards", (CHOSEN, *AXES), hint="The axis of the file that is upwards on the session.")
+    up = gui.add_dropdown("Upwards", (CHOSEN, *AXES), hint="The axis of the file that is upwards on the page.")
 
     @up.on_update
     def _(_: viser.GuiEvent[Any]) -> None:
@@ -107,7 +109,7 @@ class NeighborhoodStep:
         what = ("an open star of" if around.is_open else "a star of") if around.is_star else "its"
         low, high = around.weights.min(), around.weights.max()
         lines = [
-            f"point {around.center} at {_place(points[around.center])}",
+            f"point {around.center} at {place_of(points, around.center)}",
             f"{what} {len(around.neighbors)} neighbours, weights from {low:.3g} to {high:.3g}",
         ]
         self._said.content = said_html(lines)
@@ -116,7 +118,3 @@ class NeighborhoodStep:
     def _refuse(self, sentence: str) -> None:
         self._said.content = refused_html(sentence)
         self._session.drawing.clear_around()
-
-
-def _place(point: np.ndarray) -> str:
-    return "(" + ", ".join(f"{x:.9g}" for x in point) + ")"

@@ -1,20 +1,18 @@
 """The neighbourhood of one point of a large cloud: Figures 1 to 3 of the paper."""
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
 from ..errors import InputError, points_called
+from ..map.scan_parameters import Connect
 from ..map.weights import WeightScheme
-from ..points.neighborhoods import Neighborhoods, Rings
+from ..points.neighborhoods import Rings
 from ..typing import Indices, Points, Weights
 
 LEAST = 100  # points around the centre that are looked at
 ROOM = 4  # times as many as the k asked for
 MOST = 2000  # points whose neighbourhoods are found within a second or two, to show that of one
-
-Connect = Callable[[Points], Neighborhoods]
 
 
 @dataclass(frozen=True, slots=True, eq=False)

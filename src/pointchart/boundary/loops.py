@@ -1,4 +1,4 @@
-"""Loops from a patchwork of triangles: its rims, drawn tight."""
+"""Loops from an agreed surface: its rims, drawn tight."""
 
 import numpy as np
 

@@ -47,7 +47,9 @@ def main() -> None:
     try:
         app()
     except MemoryError:
-        _leave("not enough memory for this scan; thin it, or use a machine with more")
+        from ..errors import NO_MEMORY
+
+        _leave(NO_MEMORY)
     except Exception as error:
         from ..errors import PointchartError
 

@@ -4,9 +4,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .._kernels.agreement.link_trust import mark_far
 from .._kernels.mesh.editable import EditableMesh
 from .._kernels.mesh.energy import total_energy
+from .._kernels.mesh.far_links import mark_far
 from .._kernels.mesh.put_back import JOURNAL
 from .._kernels.mesh.put_back import relocate as relocate_kernel
 from .._parallel import over_ranges

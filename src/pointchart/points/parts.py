@@ -3,13 +3,12 @@
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .._kernels.solve.graphs import join_parts
+from .._kernels.points.forest import join_parts
 from ..errors import InputError, Remedy
 from ..typing import Floats, Indices, Points
 from .cloud import prepare
 from .neighborhoods import Neighborhoods
-from .neighbors import nearest
-from .neighbors import spacing as local_spacing
+from .neighbors import median_distances, nearest_rows
 from .surroundings import NEAREST
 
 APART = 10.0  # spacings: at 5 no scan of the evaluation falls apart yet
@@ -21,7 +20,7 @@ def label_parts(points: Points, around: Neighborhoods, spacing: Floats) -> Indic
     Examples
     --------
     >>> points = np.array([[0.0, 0, 0], [0, 1, 0], [19, 0, 0], [19, 1, 0], [19, 2, 0]])
-    >>> label_parts(points, nearest(points, 4), np.ones(5))
+    >>> label_parts(points, nearest_rows(points, 4), np.ones(5))
     array([1, 1, 0, 0, 0])
     """
     part = np.empty(around.n_points, np.int32)
@@ -78,6 +77,6 @@ def largest_component(points: ArrayLike) -> Indices:
     108
     """
     cloud = prepare(points)
-    around = nearest(cloud.points, NEAREST)
-    labels = label_parts(cloud.points, around, local_spacing(cloud.points, around=around))
+    around = nearest_rows(cloud.points, NEAREST)
+    labels = label_parts(cloud.points, around, median_distances(cloud.points, around))
     return np.flatnonzero(labels[cloud.places] == 0)

@@ -12,4 +12,16 @@ def place_of(points: Points, index: int) -> str:
     >>> place_of(np.array([[0.5, -2.0, 1e6]]), 0)
     '(0.5, -2, 1000000)'
     """
-    return "(" + ", ".join(f"{x:.9g}" for x in points[index]) + ")"
+    return "(" + coordinates_of(points, index).replace(",", ", ") + ")"
+
+
+def coordinates_of(points: Points, index: int) -> str:
+    """Write the coordinates of a point as options take them.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> coordinates_of(np.array([[0.5, -2.0, 1e6]]), 0)
+    '0.5,-2,1000000'
+    """
+    return ",".join(f"{x:.9g}" for x in points[index])

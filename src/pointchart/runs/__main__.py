@@ -19,7 +19,7 @@ def main() -> None:
 
 def _serve(source: BinaryIO, events: BinaryIO) -> None:
     from ..clock import StageClock
-    from ..errors import PointchartError, SolveError
+    from ..errors import NO_MEMORY, PointchartError, SolveError
     from .usual_shares import share_over
 
     def tell(event: Any) -> None:
@@ -34,7 +34,7 @@ def _serve(source: BinaryIO, events: BinaryIO) -> None:
     except PointchartError as error:
         tell(error)
     except MemoryError:
-        tell(SolveError("not enough memory for this scan; thin it, or use a machine with more"))
+        tell(SolveError(NO_MEMORY))
     except Exception:
         traceback.print_exc()
         raise SystemExit(1) from None

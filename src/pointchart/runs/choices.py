@@ -13,16 +13,13 @@ from ..chart.of_points import uv_of_points
 from ..chart.on_mesh import uv_on_mesh
 from ..chart.rule import ChartRule
 from ..errors import OptionError
-from ..gaps import rules as gaps
-from ..gaps.rules import GapRule
+from ..gaps.rules import GapRule, bridge_gaps, leave_gaps_open
 from ..map import weights
 from ..map.scan_parameters import Connect, LayoutRule
 from ..map.weights import WeightScheme
-from ..mesh import crease_swaps as curvature_swaps
-from ..mesh import delaunay_swaps as swaps
+from ..mesh import crease_swaps, delaunay_swaps
 from ..mesh.swap_rule import SwapRule
-from ..points import neighbors, stars
-from ..points import surroundings as vicinity
+from ..points import neighbors, stars, surroundings
 from ..points.neighborhoods import Neighborhoods
 from ..typing import UV, Floats, Indices, Loop, Points
 from .option_values import Chart, Domain, Holes, Neighbors, Spacing, SurfaceDomain, Swap, Weighting
@@ -41,14 +38,14 @@ STEPS: dict[Spacing, Callable[[Points, Loop], Floats]] = {
     Spacing.centripetal: boundary.centripetal_steps,
 }
 # Without a word the library decides, by whether the boundary was given.
-GAPS: dict[Holes, GapRule] = {Holes.bridge: gaps.bridge_gaps, Holes.open: gaps.leave_gaps_open}
+GAPS: dict[Holes, GapRule] = {Holes.bridge: bridge_gaps, Holes.open: leave_gaps_open}
 SWAPS: dict[Swap, SwapRule] = {
-    Swap.delaunay: swaps.swap_to_delaunay,
-    Swap.normals: curvature_swaps.swap_to_least_turn,
-    Swap.mean_curvature: curvature_swaps.swap_to_least_mean_curvature,
-    Swap.gaussian_curvature: curvature_swaps.swap_to_least_gaussian_curvature,
-    Swap.curvature: curvature_swaps.swap_to_least_curvature,
-    Swap.none: swaps.keep_edges,
+    Swap.delaunay: delaunay_swaps.swap_to_delaunay,
+    Swap.normals: crease_swaps.swap_to_least_turn,
+    Swap.mean_curvature: crease_swaps.swap_to_least_mean_curvature,
+    Swap.gaussian_curvature: crease_swaps.swap_to_least_gaussian_curvature,
+    Swap.curvature: crease_swaps.swap_to_least_curvature,
+    Swap.none: delaunay_swaps.keep_edges,
 }
 # All but the last are one-to-one, and certified to be.
 CHARTS: dict[Chart, ChartRule] = {
@@ -74,7 +71,7 @@ def connect_rule(kind: Neighbors | None, k: int | None, radius: float | None) ->
     if radius is not None and k is not None:
         raise OptionError("-k and --radius exclude each other: candidates are the k nearest or those in a ball")
     around: Callable[[Points], Neighborhoods] = (
-        partial(neighbors.nearest, k=vicinity.NEAREST if k is None else k)
+        partial(neighbors.nearest, k=surroundings.NEAREST if k is None else k)
         if radius is None
         else partial(neighbors.ball, radius=radius)
     )

@@ -20,6 +20,12 @@ def scan_argument() -> Any:
     return argument("SCAN", "Point cloud: ply, obj, off, stl, glb, xyz, txt, csv, pts, npy, npz, las, laz, e57.")
 
 
+def boundary_option() -> Any:
+    """Describe the boundary that is given."""
+    told = "Boundary points in order, one 0-based index a line; found, if not given."
+    return option("--boundary", default=None, metavar="LOOP.txt", help=told, group=Group.boundary, is_input=True)
+
+
 def outer_option() -> Any:
     """Describe the place that the boundary passes nearest to."""
     told = "Of the loops found, the boundary is the one nearest to this place."
@@ -60,14 +66,7 @@ class Source:
 class GivenBoundary:
     """What is known of the boundary: all of it, or a place."""
 
-    boundary: Path | None = option(
-        "--boundary",
-        default=None,
-        metavar="LOOP.txt",
-        help="Boundary points in order, one 0-based index a line; found, if not given.",
-        group=Group.boundary,
-        is_input=True,
-    )
+    boundary: Path | None = boundary_option()
     outer: str | None = outer_option()
 
     @property

@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import ClassVar
 
 from .options import Group, option
-from .shared_options import scan_argument
+from .shared_options import boundary_option, scan_argument
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -15,14 +15,7 @@ class ViewRun:
     command: ClassVar[str] = "view"
 
     scan: Path = scan_argument()
-    boundary: Path | None = option(
-        "--boundary",
-        default=None,
-        metavar="LOOP.txt",
-        help="Boundary points in order, one 0-based index a line; found, if not given.",
-        group=Group.boundary,
-        is_input=True,
-    )
+    boundary: Path | None = boundary_option()
     browser: bool = option(
         "--browser/--no-browser",
         default=True,

@@ -5,7 +5,7 @@ import math
 import numpy as np
 from numba import njit
 
-from ..solve.graphs import join
+from ..points.forest import join
 
 
 @njit(cache=True, nogil=True, inline="always")
