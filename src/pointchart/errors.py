@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Self
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
-NO_MEMORY = "not enough memory for this scan; thin it, or use a machine with more"
+NO_MEMORY = "not enough memory for this scan; thin it, or use a machine with more"  # said by programs, not raised
 
 
 class Remedy(StrEnum):
