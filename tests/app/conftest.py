@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from windows import RELIEF, SECONDS, WRONG, N
+from windows import PATIENCE, RELIEF, WRONG, N
 
 import pointchart as pc
 from pointchart import read_scan
@@ -39,7 +39,7 @@ def opened(browser, page):
     with browser.new_context(viewport={"width": 880, "height": 560}, device_scale_factor=0.5) as context:
         context.add_init_script(STILL)
         shown = context.new_page()
-        shown.set_default_timeout(SECONDS)
+        shown.set_default_timeout(PATIENCE)
         shown.words = []
         shown.on("console", lambda line: shown.words.append((line.type, line.text)))
         shown.on("pageerror", lambda error: shown.words.append(("error", str(error))))

@@ -4,7 +4,7 @@ from unittest.mock import MagicMock
 
 import numpy as np
 import pytest
-from windows import INNER, RELIEF, SECONDS, N, ask, choose, click_point, fill, tab, until
+from windows import INNER, PATIENCE, RELIEF, N, ask, choose, click_point, fill, tab, until
 
 import pointchart as pc
 from pointchart import read_scan
@@ -55,18 +55,18 @@ def test_of_many_requests_the_one_under_way_and_the_newest_are_drawn(monkeypatch
 
     def slowly(points, center, *_, **__):
         is_begun.set()
-        may_end.wait(SECONDS / 1000)
+        may_end.wait(PATIENCE / 1000)
         return Around(center, np.array([7]), np.array([1.0]), is_star=False, is_open=False)
 
     monkeypatch.setattr(cloud_steps, "around_point", slowly)
     threads = [threading.Thread(target=step.pick, args=(row, None)) for row in (1, 2, 3, 4)]
     for asked, thread in enumerate(threads, start=1):
         thread.start()
-        assert is_begun.wait(SECONDS / 1000)
+        assert is_begun.wait(PATIENCE / 1000)
         until(lambda asked=asked: step._asked == asked)
     may_end.set()
     for thread in threads:
-        thread.join(SECONDS / 1000)
+        thread.join(PATIENCE / 1000)
     drawn = [call.args[0].center for call in page.drawing.draw_around.call_args_list]
     assert drawn == [1, 4]
 
@@ -75,7 +75,7 @@ def test_a_narrow_window_shows_the_whole_scan(browser, bare):
     with browser.new_context(viewport={"width": 720, "height": 500}, device_scale_factor=0.5) as context:
         shown = context.new_page()
         shown.goto(bare.address)
-        shown.get_by_text("A click").wait_for(timeout=SECONDS)
+        shown.get_by_text("A click").wait_for(timeout=PATIENCE)
         until(bare.server.get_clients)
         (client,) = bare.server.get_clients().values()
         until(lambda: client.camera.aspect < 0.6)
@@ -89,7 +89,7 @@ def test_less_is_drawn_while_a_slow_browser_turns_the_scan(browser, bare, monkey
     with browser.new_context(viewport={"width": 800, "height": 500}, device_scale_factor=0.5) as context:
         shown = context.new_page()
         shown.goto(bare.address)
-        shown.get_by_text("A click").wait_for(timeout=SECONDS)
+        shown.get_by_text("A click").wait_for(timeout=PATIENCE)
         shown.locator("canvas").first.wait_for()
         shown.mouse.move(100, 250)
         shown.mouse.down()
@@ -102,9 +102,9 @@ def test_a_page_whose_app_has_ended_says_so(browser, bare):
     with browser.new_context(viewport={"width": 480, "height": 300}, device_scale_factor=0.5) as context:
         shown = context.new_page()
         shown.goto(bare.address)
-        shown.get_by_text("A click").wait_for(timeout=SECONDS)
+        shown.get_by_text("A click").wait_for(timeout=PATIENCE)
         bare.close()
-        shown.get_by_text("ended; start pointchart view again").wait_for(timeout=SECONDS)
+        shown.get_by_text("ended; start pointchart view again").wait_for(timeout=PATIENCE)
 
 
 def test_points_keep_their_size_when_the_cloud_gets_other_colours(bare):
