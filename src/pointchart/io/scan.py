@@ -24,11 +24,18 @@ class Scan:
         (m, 3) int64 point indices; (0, 3) when the file has no faces.
     attributes
         Everything else that the file carries for each point, by name, each (n,) with the dtype of the file.
+    valid
+        (n,) bool, false for rows that are no points by the format itself, such as no-returns of an organised frame;
+        None where all rows are points.
+    notes
+        A sentence on each thing in the file that is not in the scan, or is read otherwise than it stands.
     """
 
     points: Points
     triangles: Triangles
     attributes: Attributes
+    valid: NDArray[np.bool_] | None = None
+    notes: tuple[str, ...] = ()
 
     @property
     def uv(self) -> UV | None:

@@ -30,7 +30,7 @@ class _Layout:
     promised: int | None
 
 
-def read_text(path: AnyPath) -> Scan:
+def read_text(path: AnyPath, columns: tuple[str, str, str] | None = None) -> Scan:
     """Read rows of three or more numbers; see the module for headers and separators."""
     lines = read_lines(path)
     layout = _layout(lines, path)
@@ -44,6 +44,8 @@ def read_text(path: AnyPath) -> Scan:
             "correct the count or export the file again"
         )
     names = _names(layout, table.shape[1])
+    if columns is not None:
+        names = _with_coordinates(path, names, columns)
     return scan_from_columns(path, dict(zip(names, table.T, strict=True)))
 
 
@@ -66,6 +68,23 @@ def column_names(n_columns: int, names: Iterable[str] = ()) -> list[str]:
         name = name or f"column_{number}"
         unique.append(f"{name}_{number}" if name in unique else name)
     return unique
+
+
+def _with_coordinates(path: AnyPath, names: list[str], columns: tuple[str, str, str]) -> list[str]:
+    """Call the columns chosen x, y, z; those that had these names get others."""
+    places = []
+    for column in columns:
+        matches = [i for i, name in enumerate(names) if name.lower() == column.lower()]
+        if not matches and is_index(column) and 1 <= int(column) <= len(names):
+            matches = [int(column) - 1]
+        if len(matches) != 1:
+            raise FormatError(
+                f"{path}: column '{column}' is none of the {len(names)} columns ({', '.join(names)}); name "
+                "one of them, or give its number from 1"
+            )
+        places.append(matches[0])
+    chosen = dict(zip(places, "xyz", strict=True))
+    return [chosen.get(i, f"column_{i + 1}" if name in ("x", "y", "z") else name) for i, name in enumerate(names)]
 
 
 def _layout(lines: list[str], path: AnyPath) -> _Layout:
