@@ -1,5 +1,6 @@
 """Read scans and loops, write meshes and parameters: the format is chosen by the suffix."""
 
+from .degrees import seem_degrees
 from .loop import read_loop, write_loop
 from .output import check_output, replacing
 from .readers import READABLE_SUFFIXES, read_scan
@@ -17,6 +18,7 @@ __all__ = [
     "read_loop",
     "read_scan",
     "replacing",
+    "seem_degrees",
     "usable_rows",
     "write_curves",
     "write_loop",

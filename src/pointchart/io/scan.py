@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from ..errors import FormatError
 from ..typing import UV, Attributes, Indices, Points, Triangles
+from .column_names import coordinates_among, named_columns
 from .source import AnyPath
 
 
@@ -54,8 +55,12 @@ def scan_from_columns(
     columns: Mapping[str, NDArray[Any]],
     triangles: Triangles | None = None,
     extra: Attributes | None = None,
+    notes: Sequence[str] = (),
 ) -> Scan:
     """Make a scan of the named columns of a file: x, y, z are the points, the others are attributes."""
+    found = coordinates_among(list(columns))
+    if found is not None and not {"x", "y", "z"} <= columns.keys():
+        columns = dict(zip(named_columns(found, columns), columns.values(), strict=True))
     missing = [axis for axis in "xyz" if axis not in columns]
     if missing:
         raise FormatError(
@@ -64,7 +69,12 @@ def scan_from_columns(
         )
     points = np.stack([columns[axis] for axis in "xyz"], axis=1).astype(np.float64, copy=False)
     attributes = {name: _own(column) for name, column in columns.items() if name not in ("x", "y", "z")}
-    return Scan(points, np.empty((0, 3), np.int64) if triangles is None else triangles, attributes | (extra or {}))
+    return Scan(
+        points,
+        np.empty((0, 3), np.int64) if triangles is None else triangles,
+        attributes | (extra or {}),
+        notes=tuple(notes),
+    )
 
 
 def common_columns(parts: Sequence[Mapping[str, NDArray[Any]]]) -> dict[str, NDArray[Any]]:

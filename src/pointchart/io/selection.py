@@ -4,11 +4,15 @@ from collections.abc import Collection
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.spatial import cKDTree
 
-from ..errors import InputError, name_some
+from ..errors import InputError, Remedy, name_some
 from ..typing import Indices
 from .scan import Scan
 
+# The origin is away from a surface if it is farther from its nearest point than this many times the distance from there
+# to the sixth neighbour, which are as many as surround a point of an even sample.
+_AWAY, _AROUND = 2.0, 7
 # What programs call the class of a point: LAS dimensions, and scalar fields of CloudCompare.
 CLASS_NAMES = ("classification", "scalar_classification", "raw_classification", "class")
 
@@ -24,8 +28,9 @@ def usable_rows(
     classes : collection of int, optional
         The classes of points to keep, such as 2 for ground in LAS; all, if not given.
     drop_invalid : bool
-        Leave out rows with coordinates that are no numbers, and rows of exactly 0 0 0 if there are several, whatever
-        the format. Rows that the format itself calls no points are always left out.
+        Leave out rows with coordinates that are no numbers, and rows of exactly 0 0 0 if there are several and the
+        origin is away from all others, whatever the format. Rows that the format itself calls no points are always
+        left out.
 
     Returns
     -------
@@ -36,7 +41,7 @@ def usable_rows(
     Raises
     ------
     InputError
-        If no row is left, or the scan has no classes.
+        If rows are no points and are not to be left out, if no row is left, or the scan has no classes.
 
     Examples
     --------
@@ -48,28 +53,43 @@ def usable_rows(
     keep, notes = np.ones(len(scan.points), bool), []
     if scan.valid is not None:
         keep &= scan.valid
-    if drop_invalid:
-        for is_none, what in ((_holds_no_number(scan), "without coordinates"), (is_no_return(scan), "of 0 0 0")):
-            if n_none := int(np.count_nonzero(is_none & keep)):
-                notes.append(f"{n_none} row{'s' * (n_none > 1)} {what} left out")
-            keep &= ~is_none
+    for is_none, what in ((_without_coordinates(scan), "without coordinates"), (_no_returns(scan), "of exactly 0 0 0")):
+        which = np.flatnonzero(is_none & keep)
+        if len(which) and not drop_invalid:
+            raise InputError(
+                f"there {'is' if len(which) == 1 else 'are'} {_count(len(which))} {what}, the first is row {which[0]}, as where nothing was measured",
+                remedies=[Remedy.leave_out_invalid],
+            )
+        if len(which):
+            notes.append(f"{_count(len(which))} {what} left out")
+        keep[which] = False
     of_class, said = _of_classes(scan, keep, classes)
     keep &= of_class
-    if not keep.any():
+    if len(keep) and not keep.any():
         raise InputError(
             f"none of the {len(keep)} rows is a point to keep ({'; '.join(notes + said) or 'all invalid'})"
         )
     return np.flatnonzero(keep), notes + said
 
 
-def is_no_return(scan: Scan) -> NDArray[np.bool_]:
-    """Tell which rows are exactly 0 0 0, if several are: what sensors write where nothing came back; (n,) bool."""
-    is_zero = (scan.points == 0.0).all(axis=1)
-    return is_zero if np.count_nonzero(is_zero) > 1 else np.zeros_like(is_zero)
-
-
-def _holds_no_number(scan: Scan) -> NDArray[np.bool_]:
+def _without_coordinates(scan: Scan) -> NDArray[np.bool_]:
     return np.asarray(~np.isfinite(scan.points).all(axis=1))
+
+
+def _no_returns(scan: Scan) -> NDArray[np.bool_]:
+    """Tell which rows are exactly 0 0 0, if several are and the origin is away from all others: as no-returns are."""
+    is_zero = np.asarray((scan.points == 0.0).all(axis=1))
+    others = scan.points[~is_zero & np.isfinite(scan.points).all(axis=1)]
+    if np.count_nonzero(is_zero) < 2 or len(others) < 2:
+        return np.zeros_like(is_zero)
+    tree = cKDTree(others)
+    to_nearest, nearest = tree.query(np.zeros(3))
+    spacing = tree.query(others[nearest], k=[min(_AROUND, len(others))])[0][0]
+    return np.asarray(is_zero & (to_nearest > _AWAY * spacing))
+
+
+def _count(n_rows: int) -> str:
+    return "1 row" if n_rows == 1 else f"{n_rows} rows"
 
 
 def _of_classes(

@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..errors import InputError
-from ..io import Scan, check_output, read_loop, read_scan, usable_rows
+from ..errors import InputError, Remedy
+from ..io import Scan, check_output, read_loop, read_scan, seem_degrees, usable_rows
 from ..points.parts import largest_component
 from ..report.record import Note
 from ..typing import Indices, Loop, Points
@@ -88,6 +88,13 @@ def read_inputs(source: ScanFile, boundary: Path | None = None, corners: Sequenc
     columns, classes = source.chosen_columns(), source.chosen_classes()
     read = read_scan(source.scan, columns=columns)
     usable, said = usable_rows(read, classes=classes, drop_invalid=source.drop_invalid)
+    if columns is None and seem_degrees(read.points[usable]):
+        spans = np.ptp(read.points[usable], axis=0)
+        raise InputError(
+            f"{source.scan}: x and y span {spans[0]:.3g} and {spans[1]:.3g}, z {spans[2]:.3g}, as degrees and metres "
+            "do; project them to metres first, as with PROJ or QGIS",
+            remedies=[Remedy.choose_columns],
+        )
     rows = usable
     if isinstance(source, Source) and source.component is not None:
         rows = usable[largest_component(read.points[usable])]
