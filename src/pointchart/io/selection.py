@@ -57,7 +57,8 @@ def usable_rows(
         which = np.flatnonzero(is_none & keep)
         if len(which) and not drop_invalid:
             raise InputError(
-                f"there {'is' if len(which) == 1 else 'are'} {_count(len(which))} {what}, the first is row {which[0]}, as where nothing was measured",
+                f"there {'is' if len(which) == 1 else 'are'} {_count(len(which))} {what}, the first is row {which[0]}, "
+                "as where nothing was measured",
                 remedies=[Remedy.leave_out_invalid],
             )
         if len(which):
