@@ -27,6 +27,9 @@ class Remedy(StrEnum):
     allow_control_points = "allow more control points"
     allow_deviation = "take a larger tolerance"
     take_the_best = "take the best that there is"
+    choose_columns = "say which columns are x, y, z"
+    leave_out_invalid = "leave such rows out"
+    choose_classes = "choose classes"
 
 
 def name_some(indices: ArrayLike, shown: int = 3) -> str:

@@ -341,8 +341,8 @@ def test_a_boundary_file_is_not_replaced_by_the_deviations(refused, cap, tmp_pat
         (shapes.hemisphere(60).points, "30 control points, half as many as points, are too few"),
         (shapes.sphere(400).points, "no boundary was found"),
         (np.zeros((100, 3)), "all 100 points are the same"),
-        (np.r_[CAP.points, [[np.nan, 0, 0]]], "1 points are NaN or infinite, the first at index 500"),
-        (np.r_[CAP.points, [[0, np.inf, 0]]], "1 points are NaN or infinite, the first at index 500"),
+        (np.r_[CAP.points, [[np.nan, 0, 0]]], "there is 1 row without coordinates, the first is row 500"),
+        (np.r_[CAP.points, [[0, np.inf, 0]]], "there is 1 row without coordinates, the first is row 500"),
     ],
 )
 def test_scans_that_hold_no_patch_are_refused_whatever_the_tolerance(refused, tmp_path, points, sentence):

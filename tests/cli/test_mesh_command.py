@@ -264,7 +264,7 @@ def test_the_largest_part_names_its_rows_and_carries_what_the_scan_had(run, part
     _, rows = parts
     assert run("mesh", "parts.ply", "-o", "m.ply", "--component", "largest")[0] == 0
     mesh = read_scan(tmp_path / "m.ply")
-    assert sorted(mesh.attributes) == ["id", "point_index", "stretch", "u", "v"]
+    assert sorted(mesh.attributes) == ["id", "point_index", "scan_point_index", "stretch", "u", "v"]
     assert mesh.attributes["point_index"].dtype == np.int32
     assert np.array_equal(mesh.attributes["point_index"], rows)
     assert mesh.attributes["id"].dtype == np.uint16

@@ -55,7 +55,7 @@ def test_boundary_points_outside_the_largest_part_are_named_by_the_rows_of_the_f
     np.save(folder / "scan.npy", np.r_[FAR, SHEET.points])
     (folder / "loop.txt").write_text("".join(f"{i}\n" for i in [5, *(RIM + len(FAR)), 7]))
     assert refused("mesh", "scan.npy", "--component", "largest", "--boundary", "loop.txt") == (
-        "boundary points 5, 7 are not among the 108 points of the largest part; name points of it"
+        "boundary points 5, 7 are not among the 108 points that are taken; name points of them"
     )
 
 

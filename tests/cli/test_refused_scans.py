@@ -67,7 +67,10 @@ def test_fewer_than_four_points_are_refused(refused, folder, command, n):
 def test_broken_coordinates_are_counted_and_the_first_is_named(refused, folder, value, words):
     np.save(folder / "scan.npy", with_values(SHEET.points, (17, 0, value), (40, 2, value), (40, 1, value)))
     said = refused("mesh", "scan.npy", *words)
-    assert said == "2 points are NaN or infinite, the first at index 17; remove them from the scan"
+    assert said == (
+        "there are 2 rows without coordinates, the first is row 17, as where nothing was measured; leave such rows out "
+        "(--drop-invalid)"
+    )
 
 
 @pytest.mark.parametrize("direction", [(1, 0, 0), (1, 2, -3)])

@@ -374,7 +374,7 @@ def test_an_array_with_a_false_shape_is_refused_before_anything_is_allocated(tmp
 @pytest.mark.parametrize(
     ("arrays", "message"),
     [
-        ({"xyz": np.zeros((4, 3))}, r"there is no array 'points' among \['xyz'\]"),
+        ({"a": np.zeros((4, 3)), "b": np.ones((4, 3))}, r"there is no array 'points' among \['a', 'b'\]"),
         ({"points": np.zeros((4, 2))}, r"'points' is float64 of shape \(4, 2\), not numbers of shape \(4, 3\)"),
         ({"points": np.eye(3), "uv": np.zeros((2, 2))}, r"'uv' is float64 of shape \(2, 2\)"),
         ({"points": np.eye(3), "triangles": np.array([[0, 1, 3]])}, "face 0 refers to vertex 3, but there are 3"),

@@ -14,7 +14,7 @@ from pointchart.runs.mesh_run import MeshOptions, MeshRun
 from pointchart.runs.options import options_of
 from pointchart.runs.param_run import ParamRun
 from pointchart.runs.remedies import OPTIONS, sentence
-from pointchart.runs.shared_options import GivenBoundary, Source
+from pointchart.runs.shared_options import GivenBoundary, ScanFile, Source
 
 SCAN, OUT = Path("a.ply"), Path("b.ply")
 MESH = MeshRun(source=Source(scan=SCAN), out=OUT)
@@ -56,7 +56,7 @@ def test_the_library_names_no_options():
         ),
         (PARTS, MESH, "; take the largest (--component largest), or take them one by one"),
         (PARTS, MeshRun(source=Source(scan=SCAN, component="largest"), out=OUT), "; take them one by one"),
-        (PARTS, ParamRun(scan=SCAN, out=OUT), "; take them one by one"),
+        (PARTS, ParamRun(source=ScanFile(scan=SCAN), out=OUT), "; take them one by one"),
         (InputError("nothing helps"), MESH, ""),
         (
             SolveError("too far", remedies=(Remedy.allow_deviation, Remedy.take_the_best)),

@@ -11,10 +11,10 @@ import numpy as np
 
 from ..errors import FormatError
 from ..typing import Indices, Points, Triangles
+from .column_names import named_columns
 from .scan import Scan, fan_triangles, scan_from_columns
 from .source import AnyPath, read_lines
 from .table import as_integers, is_index, parse_rows, write_rows
-from .text import column_names
 
 _KEYWORD = re.compile(r"(C?N?|NC)OFF\b")  # colours and normals, whose letters come in either order
 _COLOURS, _NORMALS = ("red", "green", "blue", "alpha"), ("nx", "ny", "nz")  # names that PLY gives the same columns
@@ -46,7 +46,7 @@ def read_off(path: AnyPath) -> Scan:
     table = parse_rows(rows[body:end], path=path, line_numbers=numbers[body:end], least=3)
     extra = (*(_NORMALS if "N" in keyword[1] else ()), *(_COLOURS if "C" in keyword[1] else ()))
     known = ("x", "y", "z", *extra)[: table.shape[1]]
-    names = column_names(table.shape[1], [*known, *[""] * (table.shape[1] - len(known))])
+    names = named_columns((0, 1, 2), [*known, *[""] * (table.shape[1] - len(known))])
     polygons = _polygons(path, (rows[end : end + m], numbers[end : end + m]))
     return scan_from_columns(path, dict(zip(names, table.T, strict=True)), fan_triangles(path, polygons, n))
 

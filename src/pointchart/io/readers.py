@@ -36,7 +36,7 @@ _READERS: dict[str, Callable[[AnyPath], Scan]] = {
 READABLE_SUFFIXES = tuple(_READERS)  # in lower case, as suffixes are compared
 
 
-def read_scan(path: AnyPath) -> Scan:
+def read_scan(path: AnyPath, *, columns: tuple[str, str, str] | None = None) -> Scan:
     r"""Read a point cloud or the vertices and faces of a mesh.
 
     Point i of the result is point i of the file: nothing is merged, dropped or reordered, save that the repeated
@@ -46,6 +46,8 @@ def read_scan(path: AnyPath) -> Scan:
     ----------
     path
         A file with one of the suffixes in `READABLE_SUFFIXES`.
+    columns
+        The columns of a text file that are x, y, z: names of its header, or numbers from 1.
 
     Returns
     -------
@@ -69,7 +71,9 @@ def read_scan(path: AnyPath) -> Scan:
     if suffix not in _READERS:
         known = ", ".join(READABLE_SUFFIXES)
         raise FormatError(f"{path}: the suffix '{suffix}' is none of the {len(_READERS)} that can be read: {known}")
-    scan = _READERS[suffix](path)
+    if columns is not None and _READERS[suffix] is not read_text:
+        raise FormatError(f"{path}: {suffix} names its coordinates itself; choose columns of text files only")
+    scan = read_text(path, columns) if columns is not None else _READERS[suffix](path)
     if not len(scan.points):
         raise FormatError(f"{path}: the file holds 0 points; export it again with its points")
     return scan

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from ..errors import FormatError
 from ..typing import UV, Attributes, Indices, Points, Triangles
+from .column_names import coordinates_among, named_columns
 from .source import AnyPath
 
 
@@ -24,11 +25,18 @@ class Scan:
         (m, 3) int64 point indices; (0, 3) when the file has no faces.
     attributes
         Everything else that the file carries for each point, by name, each (n,) with the dtype of the file.
+    valid
+        (n,) bool, false for rows that are no points by the format itself, such as no-returns of an organised frame;
+        None where all rows are points.
+    notes
+        A sentence on each thing in the file that is not in the scan, or is read otherwise than it stands.
     """
 
     points: Points
     triangles: Triangles
     attributes: Attributes
+    valid: NDArray[np.bool_] | None = None
+    notes: tuple[str, ...] = ()
 
     @property
     def uv(self) -> UV | None:
@@ -47,8 +55,12 @@ def scan_from_columns(
     columns: Mapping[str, NDArray[Any]],
     triangles: Triangles | None = None,
     extra: Attributes | None = None,
+    notes: Sequence[str] = (),
 ) -> Scan:
     """Make a scan of the named columns of a file: x, y, z are the points, the others are attributes."""
+    found = coordinates_among(list(columns))
+    if found is not None and not {"x", "y", "z"} <= columns.keys():
+        columns = dict(zip(named_columns(found, columns), columns.values(), strict=True))
     missing = [axis for axis in "xyz" if axis not in columns]
     if missing:
         raise FormatError(
@@ -57,7 +69,12 @@ def scan_from_columns(
         )
     points = np.stack([columns[axis] for axis in "xyz"], axis=1).astype(np.float64, copy=False)
     attributes = {name: _own(column) for name, column in columns.items() if name not in ("x", "y", "z")}
-    return Scan(points, np.empty((0, 3), np.int64) if triangles is None else triangles, attributes | (extra or {}))
+    return Scan(
+        points,
+        np.empty((0, 3), np.int64) if triangles is None else triangles,
+        attributes | (extra or {}),
+        notes=tuple(notes),
+    )
 
 
 def common_columns(parts: Sequence[Mapping[str, NDArray[Any]]]) -> dict[str, NDArray[Any]]:

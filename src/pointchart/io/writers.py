@@ -7,6 +7,7 @@ import numpy as np
 
 from ..errors import InputError
 from ..typing import UV, Attributes, Loop, Points, Triangles
+from .colors import with_byte_colors
 from .mesh_formats import MESH_WRITERS, SINGLE, digits_lost
 from .output import check_suffix, replacing
 from .ply import write_ply
@@ -37,7 +38,7 @@ def write_mesh(
     uv
         (n, 2) parameters.
     attributes
-        Further values, each (n,), by name.
+        Further values, each (n,), by name; colours become bytes `red`, `green`, `blue`, which programs show.
 
     Returns
     -------
@@ -149,7 +150,7 @@ def write_uv(path: AnyPath, uv: UV, *, points: Points | None = None, attributes:
 
 
 def _checked(points: Points | None, uv: UV | None, attributes: Attributes | None) -> Attributes:
-    """Check the shapes and return the attributes that do not give way to uv."""
+    """Check the shapes and return the attributes that do not give way to uv, colours as bytes."""
     n_points = len(next(a for a in (points, uv) if a is not None))
     if points is not None and points.shape != (n_points, 3):
         raise InputError(
@@ -161,4 +162,4 @@ def _checked(points: Points | None, uv: UV | None, attributes: Attributes | None
         if column.shape != (n_points,):
             raise InputError(f"attribute {name} has shape {column.shape} where {n_points} points need ({n_points},)")
     hidden = ("x", "y", "z") if uv is None else ("x", "y", "z", "u", "v")
-    return {name: column for name, column in (attributes or {}).items() if name not in hidden}
+    return with_byte_colors({name: column for name, column in (attributes or {}).items() if name not in hidden})

@@ -101,6 +101,28 @@ def corner_names(domain: Domain | SurfaceDomain, corners: str | None) -> list[in
     return [int(word) for word in words]
 
 
+def column_names(columns: str | None) -> tuple[str, str, str] | None:
+    """Return the columns of x, y, z by name or number, if they are given."""
+    if columns is None:
+        return None
+    words = [word.strip() for word in columns.split(",")]
+    if len(words) != 3 or "" in words or len(set(words)) != 3:
+        raise OptionError(
+            f"--columns is '{columns}'; three different columns are needed, such as 2,3,4 or east,north,up"
+        )
+    return words[0], words[1], words[2]
+
+
+def class_numbers(classes: str | None) -> list[int] | None:
+    """Return the classes of points to take, if not all are."""
+    if classes is None:
+        return None
+    words = classes.split(",")
+    if not all(word.strip().isdigit() for word in words):
+        raise OptionError(f"--classes is '{classes}'; whole numbers are needed, such as 2 or 2,6")
+    return [int(word) for word in words]
+
+
 def layout_rule(domain: Domain, spacing: Spacing, corners: Indices | None) -> LayoutRule:
     """Return the function that lays the boundary out as asked for."""
     steps = STEPS[spacing]

@@ -7,11 +7,12 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..errors import InputError
-from ..io import Scan, check_output, read_loop, read_scan
+from ..errors import InputError, Remedy
+from ..io import Scan, check_output, read_loop, read_scan, seem_degrees, usable_rows
 from ..points.parts import largest_component
+from ..report.record import Note
 from ..typing import Indices, Loop, Points
-from .shared_options import Source
+from .shared_options import ScanFile, Source
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -28,12 +29,18 @@ class Inputs:
         The boundary given, in places of `rows`.
     corners : (4,) int64 or None
         The corners named, in places of `rows`.
+    notes : tuple of Note
+        What of the file is left out, or read otherwise than it stands.
+    n_in_other_parts : int
+        Points left out since they are in other parts than the one that is worked on.
     """
 
     scan: Scan
     rows: Indices
     loop: Loop | None = None
     corners: Indices | None = None
+    notes: tuple[Note, ...] = ()
+    n_in_other_parts: int = 0
 
     @property
     def points(self) -> Points:
@@ -59,7 +66,7 @@ class Inputs:
         outside = indices[place[indices] < 0]
         if len(outside):
             raise InputError(
-                f"{what} {{outside}} are not among the {len(self.rows)} points of the largest part; name points of it",
+                f"{what} {{outside}} are not among the {len(self.rows)} points that are taken; name points of them",
                 outside=outside,
             )
         return np.asarray(place[indices])
@@ -76,12 +83,25 @@ def check_outputs(outputs: Outputs, inputs: Sequence[Path | None]) -> None:
             taken.append(check_output(path, suffixes=suffixes, inputs=taken))
 
 
-def read_inputs(source: Source, boundary: Path | None = None, corners: Sequence[int] | None = None) -> Inputs:
+def read_inputs(source: ScanFile, boundary: Path | None = None, corners: Sequence[int] | None = None) -> Inputs:
     """Read the scan, and the boundary if one is given; the corners are named by rows of the file."""
-    read = read_scan(source.scan)
-    loop = None if boundary is None else read_loop(boundary)
-    whole = Inputs(read, np.arange(len(read.points)), loop)
-    part = whole if source.component is None else Inputs(read, largest_component(read.points))
-    if source.component is not None and loop is not None:
-        part = replace(part, loop=part.places_of(loop, "boundary points"))
+    columns, classes = source.chosen_columns(), source.chosen_classes()
+    read = read_scan(source.scan, columns=columns)
+    usable, said = usable_rows(read, classes=classes, drop_invalid=source.drop_invalid)
+    if columns is None and seem_degrees(read.points[usable]):
+        spans = np.ptp(read.points[usable], axis=0)
+        raise InputError(
+            f"{source.scan}: x and y span {spans[0]:.3g} and {spans[1]:.3g}, z {spans[2]:.3g}, as degrees and metres "
+            "do; project them to metres first, as with PROJ or QGIS",
+            remedies=[Remedy.choose_columns],
+        )
+    rows = usable
+    if isinstance(source, Source) and source.component is not None:
+        rows = usable[largest_component(read.points[usable])]
+    notes = tuple(map(Note, (*read.notes, *said)))
+    part = Inputs(read, rows, notes=notes, n_in_other_parts=len(usable) - len(rows))
+    if boundary is not None:
+        loop = read_loop(boundary)
+        is_whole = len(rows) == len(read.points)
+        part = replace(part, loop=loop if is_whole else part.places_of(loop, "boundary points"))
     return part if corners is None else replace(part, corners=part.places_of(corners, "corners"))

@@ -11,9 +11,9 @@ from .shared_options import (
     GivenBoundary,
     PaperMethod,
     Running,
+    ScanFile,
     out_option,
     report_option,
-    scan_argument,
 )
 
 if TYPE_CHECKING:
@@ -27,7 +27,7 @@ class ParamRun:
 
     command: ClassVar[str] = "param"
 
-    scan: Path = scan_argument()
+    source: ScanFile
     given: GivenBoundary = GivenBoundary()
     plane: ConvexDomain = ConvexDomain()
     method: PaperMethod = PaperMethod()

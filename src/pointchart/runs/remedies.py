@@ -18,8 +18,15 @@ OPTIONS = {
     Remedy.allow_control_points: ("max_control_points", ""),
     Remedy.allow_deviation: ("tolerance", ""),
     Remedy.take_the_best: ("best_effort", ""),
+    Remedy.choose_columns: ("columns", ""),
+    Remedy.leave_out_invalid: ("drop_invalid", ""),
+    Remedy.choose_classes: ("classes", ""),
 }
-ONCE = Remedy.name_the_outer_loop, Remedy.give_the_boundary  # to give another word is no other remedy
+ONCE = (
+    Remedy.name_the_outer_loop,
+    Remedy.give_the_boundary,
+    Remedy.choose_columns,
+)  # to give another word is no other remedy
 
 
 def sentence(error: PointchartError, run: "Run") -> str:

@@ -50,10 +50,58 @@ def report_option() -> Any:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Source:
-    """A scan, or a part of it."""
+class ScanFile:
+    """A file that holds a scan, and which of its columns and rows are the points."""
 
     scan: Path = scan_argument()
+    columns: str | None = option(
+        "--columns",
+        default=None,
+        metavar="X,Y,Z",
+        help="Of a text file, the columns that are x, y, z: names of its header, or numbers from 1.",
+        group=Group.input,
+    )
+    classes: str | None = option(
+        "--classes",
+        default=None,
+        metavar="A,B,...",
+        help="Take the points of these classes only, such as 2 for ground in LAS.",
+        group=Group.input,
+    )
+    drop_invalid: bool = option(
+        "--drop-invalid",
+        default=False,
+        help="Leave out rows without coordinates and repeated rows of 0 0 0; of PCD, PTX and LAS always.",
+        group=Group.input,
+    )
+
+    def chosen_columns(self) -> tuple[str, str, str] | None:
+        """Return the columns of x, y, z by name or number, if they are given.
+
+        Raises
+        ------
+        OptionError
+        """
+        from .choices import column_names
+
+        return column_names(self.columns)
+
+    def chosen_classes(self) -> list[int] | None:
+        """Return the classes to take, if not all are.
+
+        Raises
+        ------
+        OptionError
+        """
+        from .choices import class_numbers
+
+        return class_numbers(self.classes)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Source(ScanFile):
+    """A scan, or a part of it."""
+
     component: Component | None = option(
         "--component",
         default=None,

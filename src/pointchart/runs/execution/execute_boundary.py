@@ -32,7 +32,7 @@ def execute(run: BoundaryRun, clock: StageClock) -> RunReport:
             survey = survey_scan(inputs.points, outer=place, clock=clock)
         loops = [inputs.rows[survey.cloud.rows][candidate.loop] for candidate in survey.candidates]
         said = _write(run, inputs, survey, loops)
-    notes = (*_notes(run, survey, loops), *map(Note, said))
+    notes = (*inputs.notes, *_notes(run, survey, loops), *map(Note, said))
     files = tuple(untold(out=run.out, picture=run.picture, ply=run.ply))
     return RunReport(run.command, notes=notes, stages=stages_of(clock), files=files)
 

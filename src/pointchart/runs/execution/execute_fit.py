@@ -105,7 +105,11 @@ def _written(
     )
     measure = allowed, run.surface.share(), run.surface.unit
     facts = mesh_facts(meshed, options_facts(run)) | {"surface": surface_facts(surfaced, meshed.points, *measure)}
-    notes = [*choices, *boundary_notes(surfaced.reconstruction, meshed.points, found=not run.given.is_given)]
+    notes = [
+        *inputs.notes,
+        *choices,
+        *boundary_notes(surfaced.reconstruction, meshed.points, found=not run.given.is_given),
+    ]
     notes += [*intersection_notes(meshed.intersections), *surface_notes(surfaced, *measure)]
     report = RunReport(run.command, notes=tuple(notes), stages=stages_of(clock), facts=facts)
     page = _page(run, meshed, surfaced, report, clock)

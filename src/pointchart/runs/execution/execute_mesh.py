@@ -84,11 +84,11 @@ def _attributes(run: MeshRun, inputs: Inputs, meshed: MeshedScan) -> Attributes:
 
 def _notes(meshed: MeshedScan, inputs: Inputs) -> list[Note]:
     notes = boundary_notes(meshed.result, meshed.points, found=not meshed.is_boundary_given)
-    return notes + intersection_notes(meshed.intersections) + _rows_left(inputs, meshed.result.rows)
+    return [*inputs.notes, *notes, *intersection_notes(meshed.intersections), *_rows_left(inputs, meshed.result.rows)]
 
 
 def _rows_left(inputs: Inputs, rows: Indices) -> list[Note]:
-    repeated, outside = len(inputs.rows) - len(rows), len(inputs.scan.points) - len(inputs.rows)
+    repeated, outside = len(inputs.rows) - len(rows), inputs.n_in_other_parts
     lines = [f"{outside} points in other parts left out"] if outside else []
     lines += [f"{repeated} repeated points merged to the first"] if repeated else []
     return [Note(f"{', '.join(lines)}; point_index gives each vertex's row")] if lines else []

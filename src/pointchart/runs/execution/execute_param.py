@@ -4,6 +4,7 @@ from dataclasses import replace
 
 from ..._parallel import on_threads
 from ...clock import StageClock
+from ...errors import points_called
 from ...io import UV_SUFFIXES, write_uv
 from ...map.convex_combination import Parameterization
 from ...map.scan_parameters import parameterize_scan
@@ -14,7 +15,6 @@ from ...report.record import Note, RunReport, WrittenFile
 from ...typing import UV
 from ..inputs import Inputs, check_outputs, read_inputs
 from ..param_run import ParamRun
-from ..shared_options import Source
 from .written import carried, options_facts, stages_of, untold
 
 
@@ -32,21 +32,22 @@ def execute(run: ParamRun, clock: StageClock) -> RunReport:
         f"{solution.method} solver, residual {solution.residual:.1e}"
     )
     files = (WrittenFile(run.out, "out", holds), *untold(report=run.report))
-    return replace(report, notes=tuple(map(Note, said)), files=files)
+    return replace(report, notes=(*inputs.notes, *map(Note, said)), files=files)
 
 
 def _mapped(run: ParamRun, clock: StageClock) -> tuple[Inputs, UV, Parameterization]:
     """Check what is asked for, then read and map; the parameters are those of the rows of the scan."""
     connect, place, named = run.method.connect(), run.given.place(), run.plane.named_corners()
-    check_outputs(((run.out, UV_SUFFIXES), (run.report, (".json",))), [run.scan, run.given.boundary])
-    inputs = read_inputs(Source(scan=run.scan), run.given.boundary, named)
-    survey, mapped = parameterize_scan(
-        inputs.points,
-        inputs.loop,
-        outer=place,
-        connect=connect,
-        weights=run.method.scheme(),
-        layout=run.plane.layout(inputs.corners),
-        clock=clock,
-    )
+    check_outputs(((run.out, UV_SUFFIXES), (run.report, (".json",))), [run.source.scan, run.given.boundary])
+    inputs = read_inputs(run.source, run.given.boundary, named)
+    with points_called(inputs.rows):
+        survey, mapped = parameterize_scan(
+            inputs.points,
+            inputs.loop,
+            outer=place,
+            connect=connect,
+            weights=run.method.scheme(),
+            layout=run.plane.layout(inputs.corners),
+            clock=clock,
+        )
     return inputs, mapped.uv[survey.cloud.places], mapped

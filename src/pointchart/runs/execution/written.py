@@ -16,11 +16,13 @@ from ..inputs import Inputs
 from ..option_values import Figure
 from ..options import values_of
 
+# What a scan carries under names that the result needs: its parameters, and rows of yet another file.
+OWN_NAMES = {"u": "scan_u", "v": "scan_v", "point_index": "scan_point_index"}
+
 
 def carried(inputs: Inputs, rows: Indices) -> Attributes:
     """Take along what the scan carries per point, and each vertex's row where not every row is a vertex."""
-    # A point_index that the scan carries names rows of yet another file.
-    attributes = {name: values[rows] for name, values in inputs.scan.attributes.items() if name != "point_index"}
+    attributes = {OWN_NAMES.get(name, name): values[rows] for name, values in inputs.scan.attributes.items()}
     if len(rows) < len(inputs.scan.points):
         attributes["point_index"] = rows.astype(np.int32)
     return attributes
