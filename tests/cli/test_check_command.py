@@ -5,8 +5,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
-from pointchart import shapes, write_mesh
+from pointchart import PointchartError, certify, shapes, write_mesh
 
 
 def test_check_passes_a_good_mesh_with_its_scan(run, cap):
@@ -101,3 +103,76 @@ def test_check_refuses_a_disc_where_a_hole_is_due(run, cap, tmp_path):
     code, _, err = run("check", "m.ply", "--holes", 1)
     assert code == 1
     assert "its Euler characteristic is 1 instead of 0, it has 1 boundary loops instead of 2" in err
+
+
+def soup_of(shape):
+    """Return a mesh whose triangles share no vertices."""
+    return shape.points[shape.triangles].reshape(-1, 3), np.arange(shape.triangles.size).reshape(-1, 3)
+
+
+TETRAHEDRON = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]])
+
+
+@pytest.mark.parametrize(
+    ("points", "triangles", "lines", "remedy"),
+    [
+        (
+            *soup_of(shapes.hemisphere(30)),
+            [f"[!!] one part: there are {len(shapes.hemisphere(30).triangles)}"],
+            f"its {3 * len(shapes.hemisphere(30).triangles)} vertices stand at 30 places: merge those that coincide",
+        ),
+        (
+            shapes.sphere(60).points,
+            shapes.sphere(60).triangles,
+            ["[!!] Euler characteristic 1: it is 2"],
+            "it is closed, so it has no boundary to be the one of a disc",
+        ),
+        (
+            shapes.torus(12, 8).points,
+            shapes.torus(12, 8).triangles,
+            ["[!!] one boundary loop: there are 0"],
+            "it is closed, so it has no boundary",
+        ),
+        (
+            np.r_[shapes.hemisphere(30).points, shapes.hemisphere(30).points + 9],
+            np.r_[shapes.hemisphere(30).triangles, shapes.hemisphere(30).triangles + 30],
+            ["[!!] one part: there are 2"],
+            "check its parts one by one",
+        ),
+        (
+            np.r_[np.eye(3), [[0, 0, 0], [1, 1, 1]]],
+            np.r_[TETRAHEDRON, [[0, 1, 4]]],
+            ["[!!] edges manifold, orientation consistent: 1 edges at fault"],
+            "mesh the scan again, or repair it",
+        ),
+        (
+            shapes.annulus(20, 4).points,
+            shapes.annulus(20, 4).triangles,
+            ["[!!] Euler characteristic 1: it is 0"],
+            "say --holes 1",
+        ),
+    ],
+    ids=["soup", "sphere", "torus", "two parts", "non-manifold", "annulus"],
+)
+def test_check_says_what_a_mesh_is_and_what_applies_to_it(run, tmp_path, points, triangles, lines, remedy):
+    write_mesh(tmp_path / "mesh.ply", points, triangles)
+    code, _, err = run("check", "mesh.ply")
+    assert code == 1
+    for line in lines:
+        assert line in err
+    assert remedy in err
+    assert "--holes -" not in err
+
+
+@given(
+    corners=st.lists(st.tuples(*[st.integers(0, 6)] * 3).filter(lambda t: len(set(t)) == 3), min_size=1, max_size=12),
+    places=st.lists(st.integers(0, 4), min_size=7, max_size=7),
+)
+def test_any_triangles_on_any_places_are_certified_or_refused(corners, places):
+    points = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 1, 2]])[places]
+    try:
+        proof = certify(points, corners)
+    except PointchartError:
+        return
+    assert proof.n_triangles == len(corners)
+    assert np.isfinite(proof.longest_edge_over_spacing)

@@ -249,3 +249,30 @@ def test_a_list_with_a_negative_number_of_values_is_refused(scan_of):
 def test_a_damaged_file_is_refused_with_the_place_and_the_number(scan_of, content, message):
     with pytest.raises(FormatError, match=message):
         scan_of(content)
+
+
+def test_a_byte_order_mark_and_a_control_z_are_passed_over(scan_of):
+    scan = scan_of(b"\xef\xbb\xbf" + text_ply().encode() + b"\x1a")
+    np.testing.assert_array_equal(scan.points[2], [1, 1, 0])
+    assert scan.notes == ()
+
+
+@pytest.mark.parametrize("faces", ["", "3 0 1 2\n"])
+def test_vertices_may_be_broken_into_lines_all_in_the_same_way(scan_of, faces):
+    broken = text_ply(rows="0 0\n0\n1 0\n0\n1 1\n0\n0 1\n0\n", faces=faces, n_faces=len(faces.split("\n")) - 1)
+    whole = text_ply(faces=faces, n_faces=len(faces.split("\n")) - 1)
+    np.testing.assert_array_equal(scan_of(broken).points, scan_of(whole).points)
+    np.testing.assert_array_equal(scan_of(broken).triangles, scan_of(whole).triangles)
+
+
+def test_numbers_that_the_header_of_faces_does_not_name_are_left_out_and_said(scan_of):
+    scan = scan_of(text_ply(faces="3 0 1 2 255 0\n4 0 1 2 3 255 0\n", n_faces=2))
+    np.testing.assert_array_equal(scan.triangles, [[0, 1, 2], [0, 1, 2], [0, 2, 3]])
+    assert scan.notes == ("each face has 2 more numbers than the header names; they are left out",)
+
+
+def test_rows_behind_the_number_announced_are_named(scan_of):
+    assert scan_of(text_ply(n=3)).notes == ("1 line behind the 3 rows of vertex passed over",)
+    assert scan_of(binary_ply("<", {"vertex": vertices()}) + b"xyz").notes == (
+        "3 bytes behind the 4 rows of vertex passed over",
+    )

@@ -111,9 +111,8 @@ def test_not_a_number_and_infinity_are_passed_on(scan_of):
     np.testing.assert_array_equal(points, [[1, np.nan, 3], [np.nan, 5, -np.inf]])
 
 
-@pytest.mark.parametrize("suffix", [".pts", ".xyz"])
-def test_a_first_line_with_the_number_of_points_is_checked_and_passed_over(scan_of, suffix):
-    scan = scan_of("2\n1 2 3 -1000 9 8 7\n4 5 6 -900 9 8 7\n", suffix)
+def test_a_first_line_with_the_number_of_points_is_checked_and_passed_over(scan_of):
+    scan = scan_of("2\n1 2 3 -1000 9 8 7\n4 5 6 -900 9 8 7\n")
     np.testing.assert_array_equal(scan.points, [[1, 2, 3], [4, 5, 6]])
     assert list(scan.attributes) == ["column_4", "column_5", "column_6", "column_7"]
 

@@ -16,10 +16,12 @@ from ..typing import Floats
 from .column_names import angles_among, coordinates_among, named_columns
 from .first_column import is_row_number, what_else_than_x
 from .scan import Scan, scan_from_columns
-from .source import AnyPath, read_lines
+from .source import AnyPath, read_lines, split_suffix
 from .table import is_index, is_number, parse_rows
 from .text_fields import COMMENT, Fields, blank_separated, plain_text, rough_fields, separator_of
 
+# What stands behind x, y, z in files of these suffixes (Open3D).
+_BEHIND = {".xyzn": ("nx", "ny", "nz"), ".xyzrgb": ("red", "green", "blue"), ".xyzi": ("intensity",)}
 ROW_NAME = "row_name"  # what the first column is called where the header names all the others, as R writes it
 Columns = tuple[str, str, str]
 
@@ -84,7 +86,7 @@ def _layout(lines: list[str], path: AnyPath) -> _Layout:
 
 def _scan(path: AnyPath, layout: _Layout, fields: Fields, table: Floats, columns: Columns | None) -> Scan:
     """Name the columns of numbers, and say what is left out or read otherwise than by its place."""
-    header, names = _header(layout, fields)
+    header, names = _header(layout, fields, split_suffix(path)[0])
     kept = [place for place in range(fields.n_columns) if place not in fields.words]
     notes = [
         f"column {names[place] or place + 1} holds words ({_quoted(word)}) and is left out"
@@ -102,10 +104,10 @@ def _scan(path: AnyPath, layout: _Layout, fields: Fields, table: Floats, columns
     return scan_from_columns(path, found, notes=notes)
 
 
-def _header(layout: _Layout, fields: Fields) -> tuple[str | None, list[str]]:
+def _header(layout: _Layout, fields: Fields, suffix: str) -> tuple[str | None, list[str]]:
     """Choose the line that names the columns, and return it with the names; none names them if no line does."""
     n_columns = fields.n_columns
-    unsure: tuple[str | None, list[str]] = None, [""] * n_columns
+    unsure: tuple[str | None, list[str]] = None, _names_by_suffix(suffix, n_columns)
     for header in reversed(layout.headers):
         by_any = re.split(r"[\s,;]+", header.text.replace('"', "").strip(" \t,;"))
         for names in (_split_header(header.text, layout.separator), by_any):
@@ -120,6 +122,12 @@ def _header(layout: _Layout, fields: Fields) -> tuple[str | None, list[str]]:
             if unsure[0] is None and (is_sure or not header.is_comment) and ROW_NAME not in names:
                 unsure = header.text, names
     return unsure
+
+
+def _names_by_suffix(suffix: str, n_columns: int) -> list[str]:
+    """Name the columns that the suffix tells of, as Open3D has them."""
+    behind = _BEHIND.get(suffix, ())
+    return [""] * n_columns if n_columns != 3 + len(behind) else ["", "", "", *behind]
 
 
 def _split_header(text: str, separator: str | None) -> list[str]:

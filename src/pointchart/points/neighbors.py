@@ -151,6 +151,22 @@ def spacing(points: ArrayLike, *, k: int = 6, around: Neighborhoods | None = Non
     return median_distances(cloud, found, k)
 
 
+def spacing_of_places(points: Points) -> Floats:
+    """Measure the local spacing as `spacing` does, of points that may coincide: between their places.
+
+    Examples
+    --------
+    >>> corners = np.repeat([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0]], 9, axis=0)
+    >>> spacing(corners).max(), spacing_of_places(corners).min()
+    (0.0, 1.0)
+    """
+    measured = spacing(points)
+    if (measured > 0.0).all():
+        return measured
+    places, place = np.unique(points, axis=0, return_inverse=True)
+    return spacing(places)[place.ravel()]
+
+
 def median_distances(cloud: Points, found: Neighborhoods, k: int = 6) -> Floats:
     """Measure the local spacing as `spacing` does, by nearest points that are known to be right."""
     count = min(k, int(found.sizes[0]))

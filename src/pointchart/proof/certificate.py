@@ -14,7 +14,7 @@ from ..mesh.connectivity import HalfEdges, boundary_loops, fans, half_edges
 from ..mesh.planar_delaunay import coinciding
 from ..plane.crossings import is_simple
 from ..plane.exact_signs import orientation_signs, sense
-from ..points.neighbors import spacing as local_spacing
+from ..points.neighbors import spacing_of_places
 from ..typing import UV, Floats, Loop, Points, Triangles
 
 FOLD_COSINE = np.cos(np.deg2rad(150.0))  # of the turn at an edge: a choice, as folds are counted and never refused
@@ -156,7 +156,9 @@ def certify(
         raise InputError(f"a disc cannot have {holes} holes; give 0 or more")
     plane = None if uv is None else _checked_uv(uv, len(cloud))
     asked = None if loop is None else check_loop(loop, len(cloud))
-    return prove(cloud, faces, plane, asked, spacing=local_spacing(cloud) if spacing is None else spacing, holes=holes)
+    return prove(
+        cloud, faces, plane, asked, spacing=spacing_of_places(cloud) if spacing is None else spacing, holes=holes
+    )
 
 
 def prove(

@@ -17,7 +17,8 @@ if TYPE_CHECKING:
 
 def scan_argument() -> Any:
     """Describe the scan."""
-    return argument("SCAN", "Point cloud: ply, obj, off, stl, glb, xyz, txt, csv, pts, npy, npz, las, laz, e57.")
+    told = "Point cloud: ply, pcd, las, laz, e57, xyz, txt, csv, pts, ptx, asc, obj, off, stl, glb, npy, npz; or .gz."
+    return argument("SCAN", told)
 
 
 def boundary_option() -> Any:

@@ -120,6 +120,8 @@ def count_parts(corners, n_points):
 def measure_edges(points, corners, twins, spacing, sharpest, first, last, ratios):
     """Write the length of half-edges first..last over the larger spacing at their ends; return how many are folds.
 
+    Where the spacing is zero at both ends, as of vertices that coincide, zero is written.
+
     A fold turns by more than an angle of cosine `sharpest`.
     """
     folds = 0
@@ -128,7 +130,8 @@ def measure_edges(points, corners, twins, spacing, sharpest, first, last, ratios
         square = 0.0
         for k in range(3):
             square += (points[b, k] - points[a, k]) ** 2
-        ratios[h] = math.sqrt(square) / max(spacing[a], spacing[b])
+        apart = max(spacing[a], spacing[b])
+        ratios[h] = math.sqrt(square) / apart if apart > 0.0 else 0.0
         t = twins[h]
         if t > h:
             ux, uy, uz = cross_at(points, a, b, corners[preceding(h)])

@@ -12,6 +12,7 @@ from ...report.as_json import writing_json
 from ...report.checks import certificate_checks, summary
 from ...report.mesh_facts import certificate_facts
 from ...report.record import Note, RunReport
+from ...typing import Points
 from ..check_run import CheckRun
 from ..inputs import check_outputs
 from .written import stages_of, untold
@@ -24,14 +25,15 @@ def execute(run: CheckRun, clock: StageClock) -> RunReport:
     check_outputs(((run.report, (".json",)),), [run.mesh, run.points])
     read = read_scan(run.mesh)
     if len(read.triangles) == 0:
-        raise InputError(f"{run.mesh}: the file has {len(read.points)} points and no triangles; give a mesh")
+        said = f" ({'; '.join(read.notes)})" if read.notes else ""
+        raise InputError(f"{run.mesh}: the file has {len(read.points)} points and no triangles{said}; give a mesh")
     n_left = 0 if run.points is None else _compare(read, read_scan(run.points), run.mesh, run.points)
     uv = read.uv
     with clock("certify"):
         proof = certify(read.points, read.triangles, uv=uv, holes=run.holes)
     failure = None
     if not proof.is_as_asked or (uv is not None and not proof.is_one_to_one):
-        failure = InputError(f"{run.mesh} is {summary(proof)}; {_remedy(proof, run.holes)}")
+        failure = InputError(f"{run.mesh} is {summary(proof)}; {_remedy(proof, read.points, run.holes)}")
     left = f"; {n_left} points of {run.points} are not in it" if n_left else ""
     report = RunReport(
         run.command,
@@ -47,9 +49,19 @@ def execute(run: CheckRun, clock: StageClock) -> RunReport:
     return report
 
 
-def _remedy(proof: Certificate, holes: int) -> str:
-    if proof.euler == 2 - proof.boundary_loops != 1 - holes:
-        return f"for a mesh whose gaps were left open, say --holes {1 - proof.euler}"
+def _remedy(proof: Certificate, points: Points, holes: int) -> str:
+    """Say what may help, by what the mesh is."""
+    places = len(np.unique(points, axis=0))
+    if places < len(points):
+        return f"its {len(points)} vertices stand at {places} places: merge those that coincide"
+    is_manifold = proof.overfull_edges == 0 and proof.pinched_points == 0
+    if is_manifold and proof.boundary_loops == 0:
+        return "it is closed, so it has no boundary to be the one of a disc"
+    open_holes = 1 - proof.euler
+    if is_manifold and proof.parts == 1 and 0 < open_holes == proof.boundary_loops - 1 != holes:
+        return f"for a mesh whose gaps were left open, say --holes {open_holes}"
+    if proof.parts > 1:
+        return "check its parts one by one"
     return "mesh the scan again, or repair it"
 
 

@@ -91,7 +91,8 @@ def _rows_left(inputs: Inputs, rows: Indices) -> list[Note]:
     repeated, outside = len(inputs.rows) - len(rows), inputs.n_in_other_parts
     lines = [f"{outside} points in other parts left out"] if outside else []
     lines += [f"{repeated} repeated points merged to the first"] if repeated else []
-    return [Note(f"{', '.join(lines)}; point_index gives each vertex's row")] if lines else []
+    named = ["point_index gives each vertex's row"] if len(rows) < len(inputs.scan.points) else []
+    return [Note("; ".join([", ".join(lines), *named] if lines else named))] if named else []
 
 
 def _files(run: MeshRun, result: Reconstruction, page: HtmlPage | None) -> list[WrittenFile]:

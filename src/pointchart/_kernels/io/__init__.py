@@ -1,0 +1,1 @@
+"""Unpacking of what programs packed."""
