@@ -35,7 +35,7 @@ def test_cells_of_a_grid_are_points_at_their_middles(scan_of, text):
     expected = [[105, 215, 1], [115, 215, 2], [125, 215, 3], [105, 205, 4], [115, 205, -1], [125, 205, 6]]
     np.testing.assert_array_equal(scan.points, expected)
     assert np.flatnonzero(~scan.valid).tolist() == [4]
-    assert scan.notes == ("1 of 6 rows holds no point and is left out",)
+    assert scan.notes == ("1 of 6 rows is no point, and left out",)
 
 
 def test_other_files_of_that_suffix_are_text(scan_of):

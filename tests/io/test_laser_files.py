@@ -135,3 +135,56 @@ def test_a_damaged_e57_is_refused(tmp_path):
     path.write_bytes(b"ASTM-E57" + bytes(100))
     with pytest.raises(FormatError, match="this is no whole E57 file"):
         read_scan(path)
+
+
+@pytest.mark.parametrize("suffix", [".las", ".laz"])
+def test_points_that_are_withheld_or_noise_are_none(tmp_path, suffix):
+    laspy = pytest.importorskip("laspy", reason="laspy is not installed")
+    path = las_file(tmp_path / f"scan{suffix}", np.tile(SURVEY, (4, 1)))
+    with laspy.open(path) as reader:
+        cloud = reader.read()
+    cloud.classification = np.array([2, 2, 7, 5, 2, 2, 18, 7, 2, 2, 2, 2], np.uint8)
+    cloud.withheld = np.arange(12) == 4
+    cloud.write(path)
+    scan = read_scan(path)
+    assert np.flatnonzero(~scan.valid).tolist() == [2, 4, 6, 7]
+    assert scan.notes == (
+        "1 of 12 rows is withheld, as the file says, and left out",
+        "3 of 12 rows are noise, as the file says, and left out",
+    )
+
+
+def test_a_decoder_that_ends_its_process_ends_not_ours(tmp_path, monkeypatch):
+    pytest.importorskip("lazrs", reason="lazrs is not installed")
+    path = las_file(tmp_path / "scan.laz")
+    (tmp_path / "sitecustomize.py").write_text(
+        "import os, sys\nif 'pointchart.io.unpack_laz' in sys.orig_argv: os.abort()\n"
+    )
+    monkeypatch.setenv("PYTHONPATH", str(tmp_path), prepend=":")
+    with pytest.raises(FormatError, match=r"this is no whole LAS or LAZ file \(.*\); copy or export it again"):
+        read_scan(path)
+
+
+def test_a_count_that_no_file_of_that_size_holds_is_refused_at_once(tmp_path):
+    path = las_file(tmp_path / "scan.laz", np.tile(SURVEY, (1000, 1)))
+    content = bytearray(path.read_bytes())
+    content[107:111] = b"\xff" * 4
+    path.write_bytes(content)
+    with pytest.raises(FormatError, match=r"4294967295 points are in no \d+ bytes"):
+        read_scan(path)
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_damaged_laz_is_read_or_refused(tmp_path, seed):
+    pytest.importorskip("lazrs", reason="lazrs is not installed")
+    path = las_file(tmp_path / "scan.laz", np.tile(SURVEY, (400, 1)))
+    content = bytearray(path.read_bytes())
+    draw = np.random.default_rng(seed)
+    for place in draw.integers(227, len(content), 12):
+        content[place] = draw.integers(256)
+    path.write_bytes(content)
+    try:
+        n_points = len(read_scan(path).points)
+    except FormatError:
+        return
+    assert n_points > 0

@@ -118,7 +118,7 @@ def test_pixels_of_an_organised_frame_that_saw_nothing_are_no_points(scan_of, st
     points[[3, 17]] = np.nan
     scan = scan_of(header(storage, size=(8, 5)) + body(storage, points))
     assert np.flatnonzero(~scan.valid).tolist() == [3, 17]
-    assert scan.notes == ("2 of 40 rows hold no point and are left out",)
+    assert scan.notes == ("2 of 40 rows are no point, and left out",)
 
 
 @pytest.mark.parametrize("kind", ["F", "U"])

@@ -28,7 +28,7 @@ def test_scans_of_a_ptx_file_come_in_their_common_frame(scan_of):
     assert scan.valid.tolist() == [True, False, False, True]
     np.testing.assert_array_equal(scan.points[scan.valid], [[1, 2, 3], [10 - 2, 20 + 1, 30 + 3]])
     np.testing.assert_array_equal(scan.attributes["intensity"], [0.5, 0.5, 0.5, 0.25])
-    assert scan.notes == ("2 of 4 rows hold no point and are left out",)
+    assert scan.notes == ("2 of 4 rows are no point, and left out",)
 
 
 def test_colours_that_all_scans_have_are_kept(scan_of):

@@ -38,19 +38,18 @@ class Scan:
     valid: NDArray[np.bool_] | None = None
     notes: tuple[str, ...] = ()
 
-    def without_points(self, is_none: NDArray[np.bool_]) -> "Scan":
-        """Return the scan with rows named as no points, and a sentence on how many.
+    def without_points(self, is_none: NDArray[np.bool_], why: str = "no point") -> "Scan":
+        """Return the scan with rows named as no points, and a sentence on how many and why.
 
         Examples
         --------
         >>> Scan(np.zeros((2, 3)), np.empty((0, 3), np.int64), {}).without_points(np.array([True, False])).notes
-        ('1 of 2 rows holds no point and is left out',)
+        ('1 of 2 rows is no point, and left out',)
         """
         n_none = int(np.count_nonzero(is_none))
         if not n_none:
             return self
-        verbs = ("holds", "is") if n_none == 1 else ("hold", "are")
-        said = f"{n_none} of {len(is_none)} rows {verbs[0]} no point and {verbs[1]} left out"
+        said = f"{n_none} of {len(is_none)} rows {'is' if n_none == 1 else 'are'} {why}, and left out"
         valid = ~is_none if self.valid is None else self.valid & ~is_none
         return replace(self, valid=valid, notes=(*self.notes, said))
 

@@ -157,8 +157,8 @@ def spacing_of_places(points: Points) -> Floats:
     Examples
     --------
     >>> corners = np.repeat([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0]], 9, axis=0)
-    >>> spacing(corners).max(), spacing_of_places(corners).min()
-    (0.0, 1.0)
+    >>> print(spacing(corners).max(), spacing_of_places(corners).min())
+    0.0 1.0
     """
     measured = spacing(points)
     if (measured > 0.0).all():

@@ -156,9 +156,8 @@ def certify(
         raise InputError(f"a disc cannot have {holes} holes; give 0 or more")
     plane = None if uv is None else _checked_uv(uv, len(cloud))
     asked = None if loop is None else check_loop(loop, len(cloud))
-    return prove(
-        cloud, faces, plane, asked, spacing=spacing_of_places(cloud) if spacing is None else spacing, holes=holes
-    )
+    apart = spacing_of_places(cloud) if spacing is None else spacing
+    return prove(cloud, faces, plane, asked, spacing=apart, holes=holes)
 
 
 def prove(
