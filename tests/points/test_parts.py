@@ -78,11 +78,11 @@ def test_separate_parts_are_told_with_their_sizes_and_a_point_of_each(sizes, sho
 
 
 @pytest.mark.parametrize("scale", [1.0, 1e-5, 3e4])
-def test_a_stray_belongs_to_a_sheet_up_to_ten_spacings_away(scale):
+def test_a_stray_is_a_part_of_its_own_from_ten_spacings_on_and_never_of_the_largest(scale):
     sheet = shapes.grid(21, 21).points
     joined, apart = (scale * np.r_[sheet, [[10, 10, factor * APART]]] for factor in (0.999, 1.001))
     check(joined)
-    assert len(largest_component(joined)) == 442
+    assert np.array_equal(largest_component(joined), np.arange(441))
     with pytest.raises(InputError, match="2 separate parts, of 441 and 1 points") as caught:
         check(apart)
     assert caught.value.points["seeds"][1] == 441
@@ -148,3 +148,44 @@ def test_links_join_up_to_ten_spacings_of_the_denser_end():
     points = np.array([[0.0, 0, 0], [1, 0, 0], [11, 0, 0], [21, 1, 0]])
     assert label_parts(points, nearest(points, 3), np.array([1.0, 1, 4, 4])).tolist() == [0, 0, 0, 0]
     assert label_parts(points, nearest(points, 3), np.array([0.9, 0.9, 4, 4])).tolist() == [0, 0, 1, 1]
+
+
+def frame_with_flying_pixels(seed, share=0.04):
+    """See a ball from a point, 40 by 40 rays, some of those near its rim lengthened; return points and which were."""
+    draw = np.random.default_rng(seed)
+    across = np.linspace(-0.3, 0.3, 40)
+    rays = np.stack([*np.meshgrid(across, across), np.ones((40, 40))], axis=-1).reshape(-1, 3)
+    middle, radius = np.array([0.0, 0.0, 1.2]), 0.3
+    square, along = np.einsum("ij,ij->i", rays, rays), rays @ middle
+    inside = along**2 - square * (middle @ middle - radius**2)
+    hit = inside > 0
+    points = rays[hit] * ((along - np.sqrt(np.maximum(inside, 0))) / square)[hit, None]
+    near_rim = np.argsort(inside[hit])[: int(3 * share * hit.sum())]
+    flying = draw.choice(near_rim, int(share * hit.sum()), replace=False)
+    points[flying] *= 1.0 + draw.uniform(0.1, 1.0, (len(flying), 1))
+    return points, flying
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_flying_pixels_do_not_become_the_boundary(seed):
+    points, flying = frame_with_flying_pixels(seed)
+    with pytest.raises(PointchartError):
+        reconstruct(points)
+    rows = largest_component(points)
+    assert len(np.intersect1d(rows, flying)) <= 3, "those that are within the spacing of the rim"
+    assert len(rows) >= len(points) - len(flying)
+    made = reconstruct(points[rows])
+    assert made.certificate.is_disc
+    assert made.certificate.longest_edge_over_spacing < 4
+
+
+@pytest.mark.parametrize(
+    "points",
+    [
+        shapes.grade(shapes.disc(1000), ratio=1000).points,
+        np.r_[shapes.disc(900).points, 0.2 * shapes.disc(6000).points + [0.01, 0.01, 0]],
+    ],
+    ids=["graded", "a finer scan within a coarser one"],
+)
+def test_sparse_regions_of_a_surface_are_kept(points):
+    assert len(largest_component(points)) == len(points)

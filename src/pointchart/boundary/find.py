@@ -7,8 +7,8 @@ from numpy.typing import ArrayLike
 
 from .._check import check_points
 from ..agreement.agreed_surface import AgreedSurface, collect_agreed
-from ..errors import InputError
-from ..points.parts import check_one_piece
+from ..errors import InputError, Remedy
+from ..points.parts import check_one_piece, strays
 from ..points.surroundings import Vicinity, look_around
 from ..typing import Floats, Loop, Mask, Points
 from .loops import rims, tightened
@@ -16,8 +16,9 @@ from .orientation import anticlockwise
 from .scores import BoundaryScores, score_points
 from .steps import step_lengths
 
+MOST_STRAYS = 0.1  # of the points of a boundary: of sparse corners of laser scans 0.01 are taken for strays
 LEAST_SHARE = 0.5  # of the length between boundary points: the boundaries found on 15 scans have 0.94 and more
-SHORTEST = 12.0  # spacings: a shorter loop is a gap that a neighbourhood spans
+SHORTEST = 12.0  # spacings along boundary points: a shorter loop is a gap that a neighbourhood spans
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -110,17 +111,41 @@ def search_boundary(cloud: Points, near: Vicinity) -> FoundBoundary:
     surface = tightened(near.smoothed, agreed, is_boundary)
     found = [measure(cloud, loop, is_boundary) for loop in rims(surface)]
     scale = float(np.median(near.spacing))
-    good = [c for c in found if c.share >= LEAST_SHARE and c.length >= SHORTEST * scale]
+    good = [c for c in found if c.share >= LEAST_SHARE and c.share * c.length >= SHORTEST * scale]
     if not good:
-        longest = max((c.length for c in found if c.share >= LEAST_SHARE), default=0.0)
+        longest = max((c.share * c.length for c in found if c.share >= LEAST_SHARE), default=0.0)
         raise InputError(
-            f"no boundary was found: no loop of boundary points is {SHORTEST:.0f} spacings long (the longest has "
+            f"no boundary was found: no loop runs {SHORTEST:.0f} spacings along boundary points (the longest has "
             f"{longest / scale:.1f}), so these {len(cloud)} points are too few or lie on a closed surface; give the "
             "boundary, or cut the scan open"
         )
     good.sort(key=lambda c: -c.share * c.length)
+    _check_no_strays(cloud, near, good[0])
     good = [replace(candidate, loop=anticlockwise(cloud, candidate.loop)) for candidate in good]
     return FoundBoundary(good[0].loop, good, scores, surface)
+
+
+def _check_no_strays(cloud: Points, near: Vicinity, chosen: Candidate) -> None:
+    """Check that the boundary does not run through strays, but for a few.
+
+    Raises
+    ------
+    InputError
+        Naming them.
+    """
+    is_stray = strays(cloud, near.around, near.spacing)
+    if not is_stray.any():
+        return
+    n_on_loop = int(np.count_nonzero(is_stray[chosen.loop]))
+    if n_on_loop < MOST_STRAYS * len(chosen.loop):
+        return
+    apart = float(np.median(near.spacing[is_stray]) / np.median(near.spacing))
+    raise InputError(
+        f"{np.count_nonzero(is_stray)} of the points are {apart:.0f} times as far apart as the others ({{strays}}), "
+        f"and the boundary runs through {n_on_loop} of them: flying pixels or strays",
+        remedies=(Remedy.take_the_largest_part, Remedy.give_the_boundary),
+        strays=np.flatnonzero(is_stray),
+    )
 
 
 def measure(points: Points, loop: Loop, is_boundary: Mask) -> Candidate:
