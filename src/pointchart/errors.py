@@ -30,6 +30,8 @@ class Remedy(StrEnum):
     choose_columns = "say which columns are x, y, z"
     leave_out_invalid = "leave such rows out"
     choose_classes = "choose classes"
+    keep_one_a_place = "keep the highest or the lowest"
+    take_heights = "for a height field take its projection"
 
 
 def name_some(indices: ArrayLike, shown: int = 3) -> str:

@@ -49,7 +49,7 @@ def triangulate(uv: ArrayLike, loop: ArrayLike) -> Triangles:
     if plane.ndim != 2 or plane.shape[1] != 2 or not np.isfinite(plane).all():
         raise InputError(f"uv has shape {plane.shape}; a finite (n, 2) array is needed")
     rim = check_loop(loop, len(plane))
-    triangles = _peel_to_loop(_delaunay(plane), rim, len(plane))
+    triangles = _peel_to_loop(delaunay(plane), rim, len(plane))
     if len(triangles) != 2 * len(plane) - 2 - len(rim):
         outside = np.setdiff1d(np.setdiff1d(np.arange(len(plane)), triangles), rim)
         named = " points {outside} lie on or outside it;" if len(outside) else ""
@@ -109,7 +109,19 @@ def separate(uv: UV, loop: Loop) -> UV:
     return apart
 
 
-def _delaunay(uv: UV) -> Triangles:
+def delaunay(uv: UV) -> Triangles:
+    """Triangulate the convex hull of points in the plane by Delaunay's criterion, with exact predicates.
+
+    Raises
+    ------
+    SolveError
+        If points coincide.
+
+    Examples
+    --------
+    >>> len(delaunay(np.array([[0.0, 0], [3, 0], [0, 3], [1, 1]])))
+    3
+    """
     doubled = coinciding(uv)
     if len(doubled):
         raise SolveError(

@@ -1,8 +1,11 @@
 """The functions of the library that the words of options name."""
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -14,6 +17,7 @@ from ..chart.on_mesh import uv_on_mesh
 from ..chart.rule import ChartRule
 from ..errors import OptionError
 from ..gaps.rules import GapRule, bridge_gaps, leave_gaps_open
+from ..heights.projection import fitted_normal
 from ..map import weights
 from ..map.scan_parameters import Connect, LayoutRule
 from ..map.weights import WeightScheme
@@ -23,6 +27,10 @@ from ..points import neighbors, stars, surroundings
 from ..points.neighborhoods import Neighborhoods
 from ..typing import UV, Floats, Indices, Loop, Points
 from .option_values import Chart, Domain, Holes, Neighbors, Spacing, SurfaceDomain, Swap, Weighting
+from .options import options_of, values_of
+
+if TYPE_CHECKING:
+    from .mesh_run import MeshRun
 
 # What each word of an option stands for; whoever adds a word adds it here and to the words themselves.
 WEIGHTS: dict[Weighting, WeightScheme] = {
@@ -121,6 +129,36 @@ def class_numbers(classes: str | None) -> list[int] | None:
     if not all(word.strip().isdigit() for word in words):
         raise OptionError(f"--classes is '{classes}'; whole numbers are needed, such as 2 or 2,6")
     return [int(word) for word in words]
+
+
+def plane_normal(run: MeshRun) -> Callable[[Points], Floats] | None:
+    """Return the function that gives the normal of the plane asked for, of points; None if none is asked for."""
+    text = run.mesh.plane
+    if text is None:
+        if run.mesh.keep is not None:
+            raise OptionError("--keep needs --plane: it says which of several points at one place of a plane stays")
+        return None
+    idle = ("outer", "boundary", "domain", "corners", "spacing", "swap", "uv", "neighbors", "k", "radius", "weights")
+    values = values_of(run)
+    for option in options_of(type(run)):
+        if option.name in idle and values[option.name] != option.default:
+            raise OptionError(
+                f"--plane and {option.flags[0]} exclude each other: the plane gives boundary and parameters"
+            )
+    if text == "fit":
+        return fitted_normal
+    try:
+        normal = np.eye(3)[["yz", "xz", "xy"].index(text)] if text in ("xy", "xz", "yz") else _direction(text)
+    except ValueError:
+        raise OptionError(f"--plane is '{text}'; xy, xz, yz, fit or a normal is needed, such as 0,0.1,1") from None
+    return lambda points: normal
+
+
+def _direction(text: str) -> Floats:
+    direction = np.array([float(word) for word in text.split(",")]).reshape(3)
+    if not np.isfinite(direction).all() or not direction.any():
+        raise ValueError
+    return direction
 
 
 def layout_rule(domain: Domain, spacing: Spacing, corners: Indices | None) -> LayoutRule:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, ClassVar
 
-from .option_values import Chart, Holes, Swap
+from .option_values import Chart, Holes, KeptPoint, Swap
 from .options import Group, option
 from .shared_options import ConvexDomain, GivenBoundary, PaperMethod, Running, Source, Told, out_option
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class MeshOptions:
-    """What becomes of gaps, edges and parameters."""
+    """What becomes of gaps, edges and parameters, and whether the scan is a height field."""
 
     holes: Holes | None = option(
         "--holes",
@@ -37,6 +37,20 @@ class MeshOptions:
         default=Chart.mesh,
         help="Parameters: one-to-one on the mesh, with low stretch, with a free boundary, or the paper's own.",
         group=Group.parameters,
+    )
+    plane: str | None = option(
+        "--plane",
+        default=None,
+        metavar="xy|fit|A,B,C",
+        help="Mesh a height field, as terrain, by its projection to this plane; fit is the plane of least squares, "
+        "A,B,C a normal.",
+        group=Group.boundary,
+    )
+    keep: KeptPoint | None = option(
+        "--keep",
+        default=None,
+        help="Of several points at one place of the plane, keep this one.",
+        group=Group.boundary,
     )
 
 

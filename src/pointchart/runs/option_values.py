@@ -42,6 +42,13 @@ class Spacing(StrEnum):
     centripetal = "centripetal"
 
 
+class KeptPoint(StrEnum):
+    """Which of the points at one place of a plane stays."""
+
+    highest = "highest"
+    lowest = "lowest"
+
+
 class Holes(StrEnum):
     """What becomes of gaps of the scan."""
 

@@ -21,6 +21,8 @@ OPTIONS = {
     Remedy.choose_columns: ("columns", ""),
     Remedy.leave_out_invalid: ("drop_invalid", ""),
     Remedy.choose_classes: ("classes", ""),
+    Remedy.keep_one_a_place: ("keep", "highest"),
+    Remedy.take_heights: ("plane", "xy"),
 }
 ONCE = (
     Remedy.name_the_outer_loop,

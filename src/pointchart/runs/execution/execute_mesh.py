@@ -5,6 +5,7 @@ from dataclasses import replace
 from ..._parallel import on_threads
 from ...clock import StageClock
 from ...errors import points_called
+from ...heights.height_field import Keep, reconstruct_heights
 from ...io import MESH_SUFFIXES, check_digits, write_mesh
 from ...look.page import PAGE_SUFFIXES, compose, writing_page
 from ...look.page.html_page import HtmlPage
@@ -16,9 +17,10 @@ from ...report.mesh_facts import MeshedScan, mesh_facts
 from ...report.mesh_notes import boundary_notes, intersection_notes
 from ...report.record import Note, RunReport, WrittenFile
 from ...typing import Attributes, Indices
-from ..choices import CHARTS, GAPS, SWAPS
+from ..choices import CHARTS, GAPS, SWAPS, plane_normal
 from ..inputs import Inputs, check_outputs, read_inputs
 from ..mesh_run import MeshRun
+from ..option_values import Holes, KeptPoint
 from .measured import measure_mesh
 from .written import carried, options_facts, page_words, stages_of, untold
 
@@ -47,8 +49,15 @@ def _meshed(run: MeshRun, clock: StageClock) -> tuple[Inputs, Reconstruction]:
     named, holes = run.plane.named_corners(), run.mesh.holes
     outputs = ((run.out, MESH_SUFFIXES), (run.told.report, (".json",)), (run.told.html, PAGE_SUFFIXES))
     check_outputs(outputs, [run.source.scan, run.given.boundary])
+    plane = plane_normal(run)
     inputs = read_inputs(run.source, run.given.boundary, named)
     check_digits(run.out, inputs.points)
+    if plane is not None:
+        with points_called(inputs.rows):
+            keep = None if run.mesh.keep is None else Keep(run.mesh.keep)
+            gaps_open = holes is Holes.open
+            normal = plane(inputs.points)
+            return inputs, reconstruct_heights(inputs.points, normal, keep=keep, gaps_open=gaps_open, clock=clock)
     with points_called(inputs.rows):
         return inputs, reconstruct(
             inputs.points,
@@ -69,7 +78,7 @@ def _reported(run: MeshRun, inputs: Inputs, meshed: MeshedScan, clock: StageCloc
     return RunReport(
         run.command,
         checks=tuple(certificate_checks(meshed.result.certificate)),
-        notes=tuple(_notes(meshed, inputs)),
+        notes=tuple(_notes(meshed, inputs, run)),
         stages=stages_of(clock),
         facts=mesh_facts(meshed, options_facts(run)),
     )
@@ -82,15 +91,23 @@ def _attributes(run: MeshRun, inputs: Inputs, meshed: MeshedScan) -> Attributes:
     return attributes
 
 
-def _notes(meshed: MeshedScan, inputs: Inputs) -> list[Note]:
+def _notes(meshed: MeshedScan, inputs: Inputs, run: MeshRun) -> list[Note]:
     notes = boundary_notes(meshed.result, meshed.points, found=not meshed.is_boundary_given)
-    return [*inputs.notes, *notes, *intersection_notes(meshed.intersections), *_rows_left(inputs, meshed.result.rows)]
+    return [
+        *inputs.notes,
+        *notes,
+        *intersection_notes(meshed.intersections),
+        *_rows_left(inputs, meshed.result.rows, run.mesh.keep),
+    ]
 
 
-def _rows_left(inputs: Inputs, rows: Indices) -> list[Note]:
+def _rows_left(inputs: Inputs, rows: Indices, kept: KeptPoint | None) -> list[Note]:
     repeated, outside = len(inputs.rows) - len(rows), inputs.n_in_other_parts
     lines = [f"{outside} points in other parts left out"] if outside else []
-    lines += [f"{repeated} repeated points merged to the first"] if repeated else []
+    merged = (
+        "repeated points merged to the first" if kept is None else f"points left out that are not the {kept} at a place"
+    )
+    lines += [f"{repeated} {merged}"] if repeated else []
     named = ["point_index gives each vertex's row"] if len(rows) < len(inputs.scan.points) else []
     return [Note("; ".join([", ".join(lines), *named] if lines else named))] if named else []
 

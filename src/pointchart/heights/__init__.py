@@ -1,0 +1,1 @@
+"""Height fields: terrain, towns, seabeds and contour lines over a plane."""
