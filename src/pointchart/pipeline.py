@@ -26,6 +26,7 @@ from .mesh.ways import Way, make_mesh
 from .plane.polygons import check_layout
 from .points.cloud import Cloud
 from .proof.certificate import Certificate, check_proof, prove
+from .proof.folded import check_not_folded
 from .solve.solver import Solver
 from .solve.systems import Solution
 from .typing import UV, Indices, Loop, Triangles
@@ -182,6 +183,7 @@ def reconstruct(
             spacing = trial.around.spacing / cloud.scale
             proof = prove(cloud.points, triangles, mapped.uv, rim, spacing=spacing, holes=holes)
             check_proof(proof, is_one_to_one=charted.is_one_to_one)
+            check_not_folded(cloud.points, proof)
     trial = replace(trial, meshed=meshed)
     return _in_rows(cloud, trial, triangles, mapped, proof)
 
