@@ -69,6 +69,7 @@ from .solve.algebraic_multigrid import multigrid as multigrid
 from .points.neighborhoods import Neighborhoods as Neighborhoods
 from .points.neighbors import ball as ball, nearest as nearest, spacing as spacing
 from .map.convex_combination import Parameterization as Parameterization, parameterize as parameterize
+from .heights.height_field import Keep as Keep, reconstruct_heights as reconstruct_heights
 from .pipeline import Reconstruction as Reconstruction, reconstruct as reconstruct
 from .map.scan_parameters import parameterize_scan as parameterize_scan
 from .points.cloud import Cloud as Cloud, prepare as prepare

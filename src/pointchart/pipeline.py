@@ -183,7 +183,8 @@ def reconstruct(
             spacing = trial.around.spacing / cloud.scale
             proof = prove(cloud.points, triangles, mapped.uv, rim, spacing=spacing, holes=holes)
             check_proof(proof, is_one_to_one=charted.is_one_to_one)
-            check_not_folded(cloud.points, proof)
+            if loop is None and outer is None:
+                check_not_folded(cloud.points, proof)
     trial = replace(trial, meshed=meshed)
     return _in_rows(cloud, trial, triangles, mapped, proof)
 

@@ -1,10 +1,11 @@
 """Arguments for every compiled kernel, in a module for each room of the kernels."""
 
-from kernel_cases import agreement, boundary, map, mesh, plane, points, proof, solve, surface
+from kernel_cases import agreement, boundary, io, map, mesh, plane, points, proof, solve, surface
 
 CASES = (
     agreement.CASES
     | boundary.CASES
+    | io.CASES
     | map.CASES
     | mesh.CASES
     | plane.CASES

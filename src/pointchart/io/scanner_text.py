@@ -68,7 +68,8 @@ def read_ptx(path: AnyPath) -> Scan:
 
 def _moved(columns: Attributes, transform: Floats) -> Attributes:
     """Apply a transform to rows of coordinates; its last row is the shift."""
-    points = np.column_stack([columns[axis] for axis in "xyz"]) @ transform[:3, :3] + transform[3, :3]
+    with np.errstate(invalid="ignore", over="ignore"):  # what is not finite is named later
+        points = np.column_stack([columns[axis] for axis in "xyz"]) @ transform[:3, :3] + transform[3, :3]
     return dict(zip("xyz", points.T, strict=True))
 
 

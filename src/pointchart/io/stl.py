@@ -26,7 +26,9 @@ def read_stl(path: AnyPath) -> Scan:
     is_text = data.lstrip()[:5].lower() == b"solid" and b"\0" not in data[:1024]
     corners = _text_corners(path, data) if is_text else _binary_corners(path, data)
     first, kind = distinct_rows(corners)
-    return Scan(corners[first].astype(np.float64), kind.reshape(-1, 3), {})
+    with np.errstate(invalid="ignore"):  # a signaling not-a-number
+        points = corners[first].astype(np.float64)
+    return Scan(points, kind.reshape(-1, 3), {})
 
 
 def write_stl(file: BinaryIO, points: Points, triangles: Triangles) -> None:
