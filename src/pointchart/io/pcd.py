@@ -70,9 +70,10 @@ def _header(path: AnyPath, data: bytes) -> _Header:
             f"{path}: the header has {len(names)} FIELDS, {len(sizes)} SIZE, {len(kinds)} TYPE and {len(counts)} COUNT "
             "where each field needs one; export the file again"
         )
-    fields = []
+    fields: list[tuple[str, str, int]] = []
     for name, size, kind, count in zip(names, sizes, kinds, counts, strict=True):
-        if not is_index(size) or int(size) not in _SIZES.get(kind, ()) or not is_index(count):
+        is_known = is_index(size) and int(size) in _SIZES.get(kind, ()) and is_index(count)
+        if not is_known or int(count) * int(size) > len(data):
             raise FormatError(
                 f"{path}: field {name} has type {kind}, size {size}, count {count}; export the file again"
             )
