@@ -5,7 +5,7 @@ from .loop import read_loop, write_loop
 from .output import check_output, replacing
 from .readers import READABLE_SUFFIXES, read_scan
 from .scan import Scan
-from .selection import usable_rows
+from .selection import classes_in, usable_rows
 from .writers import MESH_SUFFIXES, UV_SUFFIXES, check_digits, write_curves, write_mesh, write_uv
 
 __all__ = [
@@ -15,6 +15,7 @@ __all__ = [
     "Scan",
     "check_digits",
     "check_output",
+    "classes_in",
     "read_loop",
     "read_scan",
     "replacing",

@@ -73,6 +73,20 @@ def usable_rows(
     return np.flatnonzero(keep), notes + said
 
 
+def classes_in(scan: Scan, rows: Indices) -> str | None:
+    """Write the classes of rows with their numbers, as 2 (751), 5 (250); None if there is one or none is told."""
+    name = _class_name(scan)
+    if name is None:
+        return None
+    found, counts = np.unique(scan.attributes[name][rows], return_counts=True)
+    listed = ", ".join(f"{value:g} ({count})" for value, count in zip(found.tolist(), counts.tolist(), strict=True))
+    return listed if len(found) > 1 else None
+
+
+def _class_name(scan: Scan) -> str | None:
+    return next((name for name in scan.attributes if name.lower() in CLASS_NAMES), None)
+
+
 def _without_coordinates(scan: Scan) -> NDArray[np.bool_]:
     return np.asarray(~np.isfinite(scan.points).all(axis=1))
 
@@ -97,7 +111,7 @@ def _of_classes(
     scan: Scan, keep: NDArray[np.bool_], classes: Collection[int] | None
 ) -> tuple[NDArray[np.bool_], list[str]]:
     """Tell which rows are of the classes asked for; without a question, name the classes if there are several."""
-    name = next((name for name in scan.attributes if name.lower() in CLASS_NAMES), None)
+    name = _class_name(scan)
     everything = np.ones(len(keep), bool)
     if name is None:
         if classes is not None:
@@ -106,12 +120,13 @@ def _of_classes(
                 "choose no classes"
             )
         return everything, []
-    found, counts = np.unique(scan.attributes[name][keep], return_counts=True)
-    held = ", ".join(f"{value:g} ({count})" for value, count in zip(found.tolist(), counts.tolist(), strict=True))
+    rows = np.flatnonzero(keep)
+    listed = classes_in(scan, rows)
     if classes is None:
-        return everything, [f"the scan holds points of classes {held}"] if len(found) > 1 else []
+        return everything, [] if listed is None else [f"the scan holds points of classes {listed}"]
     chosen = np.isin(scan.attributes[name], list(classes))
-    missing = [one for one in classes if one not in found]
+    missing = [one for one in classes if not (chosen & (scan.attributes[name] == one) & keep).any()]
+    held = listed or f"{scan.attributes[name][rows[0]]:g} alone"
     if missing:
         raise InputError(f"the scan has no point of class {name_some(missing)}; it has classes {held}")
     return chosen, [f"{np.count_nonzero(keep & ~chosen)} points of other classes left out; the scan holds {held}"]

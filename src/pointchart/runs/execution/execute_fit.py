@@ -10,6 +10,8 @@ from ...cad import CAD_SUFFIXES, SURFACE_SUFFIXES, write_surface
 from ...cad.occ import check_extra
 from ...clock import StageClock
 from ...errors import SolveError, points_called
+from ...heights.layers import check_one_layer
+from ...io import classes_in
 from ...look.page import PAGE_SUFFIXES, compose, writing_page
 from ...look.page.html_page import HtmlPage
 from ...look.paint import PICTURE_SUFFIXES
@@ -49,6 +51,8 @@ def _surfaced(run: FitRun, clock: StageClock) -> tuple[Inputs, float, SurfacedSc
     _check_files(run)
     inputs = read_inputs(run.source, run.given.boundary, named)
     allowed = allowed_of(_diagonal(inputs.points))
+    if (classes := classes_in(inputs.scan, inputs.rows)) is not None:
+        check_one_layer(inputs.points, classes)
     with points_called(inputs.rows):
         surfaced = fit_scan(
             inputs.points,

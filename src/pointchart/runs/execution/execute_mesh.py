@@ -6,7 +6,8 @@ from ..._parallel import on_threads
 from ...clock import StageClock
 from ...errors import points_called
 from ...heights.height_field import Keep, reconstruct_heights
-from ...io import MESH_SUFFIXES, check_digits, write_mesh
+from ...heights.layers import check_one_layer
+from ...io import MESH_SUFFIXES, check_digits, classes_in, write_mesh
 from ...look.page import PAGE_SUFFIXES, compose, writing_page
 from ...look.page.html_page import HtmlPage
 from ...mesh.distortion import vertex_stretches
@@ -58,6 +59,8 @@ def _meshed(run: MeshRun, clock: StageClock) -> tuple[Inputs, Reconstruction]:
             gaps_open = holes is Holes.open
             normal = plane(inputs.points)
             return inputs, reconstruct_heights(inputs.points, normal, keep=keep, gaps_open=gaps_open, clock=clock)
+    if (classes := classes_in(inputs.scan, inputs.rows)) is not None:
+        check_one_layer(inputs.points, classes)
     with points_called(inputs.rows):
         return inputs, reconstruct(
             inputs.points,
