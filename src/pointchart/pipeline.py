@@ -25,6 +25,7 @@ from .mesh.swap_rule import SwapRule, as_swaps
 from .mesh.ways import Way, make_mesh
 from .plane.polygons import check_layout
 from .points.cloud import Cloud
+from .points.lines import lines_told
 from .proof.certificate import Certificate, check_proof, prove
 from .proof.folded import check_not_folded
 from .solve.solver import Solver
@@ -167,7 +168,8 @@ def reconstruct(
     way = Way(swaps, connect, weights, charted.needs_map, solver)
     rule = gaps or (refuse_second_boundary if loop is None and outer is None else bridge_gaps)
     surveys = survey.trials(TRIALS if outer is None else 1)
-    trial = first_sound(surveys, rule, partial(make_mesh, way=way, clock=clock))
+    with lines_told(cloud.points):
+        trial = first_sound(surveys, rule, partial(make_mesh, way=way, clock=clock))
     del survey, surveys  # most of the memory, which the map needs
     rim = trial.around.loop
     boundary_uv = check_layout(layout(scan, cloud.rows[rim]), rim)
