@@ -1,11 +1,14 @@
 """What is worth a word about a boundary, its gaps and a mesh."""
 
+from ..mesh.spanning import SPANNING
 from ..pipeline import Reconstruction
 from ..points.places import place_of
 from ..proof.intersection_places import SelfIntersections
 from ..typing import Points
 from .checks import counted
 from .record import Note
+
+SLOTS = 0.15  # of the area, from which on slots are worth a word: uneven laser scans have up to 0.1 without any
 
 
 def boundary_notes(result: Reconstruction, points: Points, *, found: bool) -> list[Note]:
@@ -35,6 +38,18 @@ def intersection_notes(found: SelfIntersections) -> list[Note]:
         return []
     first = place_of(found.places, 0)
     return [Note(f"look at {counted(n, 'place')} where the mesh passes through itself, the first at {first}")]
+
+
+def slot_notes(n_spanning: int, share: float) -> list[Note]:
+    """Say that triangles span slots, if many do; see `spanning_triangles`."""
+    if share <= SLOTS:
+        return []
+    return [
+        Note(
+            f"look at {n_spanning} triangles with edges of over {SPANNING:g} spacings, {share:.0%} of the area: the "
+            "mesh may close narrow slots of the scan"
+        )
+    ]
 
 
 def _boundary(result: Reconstruction, *, found: bool) -> str:

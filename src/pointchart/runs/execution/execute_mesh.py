@@ -11,11 +11,12 @@ from ...io import MESH_SUFFIXES, check_digits, classes_in, write_mesh
 from ...look.page import PAGE_SUFFIXES, compose, writing_page
 from ...look.page.html_page import HtmlPage
 from ...mesh.distortion import vertex_stretches
+from ...mesh.spanning import spanning_triangles
 from ...pipeline import Reconstruction, reconstruct
 from ...report.as_json import writing_json
 from ...report.checks import certificate_checks, summary
 from ...report.mesh_facts import MeshedScan, mesh_facts
-from ...report.mesh_notes import boundary_notes, intersection_notes
+from ...report.mesh_notes import boundary_notes, intersection_notes, slot_notes
 from ...report.record import Note, RunReport, WrittenFile
 from ...typing import Attributes, Indices
 from ..choices import CHARTS, GAPS, SWAPS, plane_normal
@@ -100,8 +101,16 @@ def _notes(meshed: MeshedScan, inputs: Inputs, run: MeshRun) -> list[Note]:
         *inputs.notes,
         *notes,
         *intersection_notes(meshed.intersections),
+        *_slots(meshed, run),
         *_rows_left(inputs, meshed.result.rows, run.mesh.keep),
     ]
+
+
+def _slots(meshed: MeshedScan, run: MeshRun) -> list[Note]:
+    """Say that narrow slots may be closed; a height field spans what it spans."""
+    if run.mesh.plane is not None:
+        return []
+    return slot_notes(*spanning_triangles(meshed.points, meshed.result.triangles))
 
 
 def _rows_left(inputs: Inputs, rows: Indices, kept: KeptPoint | None) -> list[Note]:
