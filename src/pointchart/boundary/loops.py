@@ -4,7 +4,48 @@ import numpy as np
 
 from .._kernels.boundary.rim_walks import draw_tight, walk_rims
 from ..agreement.agreed_surface import AgreedSurface
+from ..points.surroundings import Vicinity
 from ..typing import Indices, Loop, Mask, Points
+
+# Spacings of an edge across a slot: those of an even sampling have two, the diameter of a star in no doubt.
+WIDE = 2.5
+
+
+def without_slots(cloud: Points, surface: AgreedSurface, is_boundary: Mask, near: Vicinity) -> AgreedSurface:
+    """Leave out triangles across slots: two corners score as boundary points, and two edges are long.
+
+    Where a slot is no wider than a triangle may be, stars on both sides agree across it. The length is told in
+    spacings further in, as that of a boundary point counts the gap beside it.
+
+    Parameters
+    ----------
+    cloud : (n, 3) float64 array
+    surface : AgreedSurface
+    is_boundary : (n,) bool array
+    near : Vicinity
+
+    Returns
+    -------
+    AgreedSurface
+
+    Examples
+    --------
+    >>> from pointchart import shapes
+    >>> from pointchart.agreement.agreed_surface import patchwork
+    >>> from pointchart.points.surroundings import explore
+    >>> sheets = np.r_[shapes.grid(5, 9).points, shapes.grid(5, 9).points + [7.4, 0, 0]]
+    >>> across = patchwork([[4, 45, 50], [4, 50, 9], [0, 1, 5]], 90)
+    >>> without_slots(sheets, across, np.ones(90, bool), explore(sheets)).triangles.tolist()
+    [[0, 1, 5]]
+    """
+    chosen = np.flatnonzero(is_boundary[surface.triangles].sum(axis=1) >= 2)
+    corners = surface.triangles[chosen]
+    near_each = near.around.indices.reshape(len(cloud), -1)
+    usual = np.median(near.spacing[near_each[corners]], axis=2).max(axis=1)
+    edges = np.linalg.norm(cloud[corners] - cloud[np.roll(corners, -1, axis=1)], axis=2)
+    dropped = np.zeros(len(surface.triangles), np.bool_)
+    dropped[chosen[(edges > WIDE * usual[:, None]).sum(axis=1) >= 2]] = True
+    return surface.without(dropped)
 
 
 def tightened(cloud: Points, surface: AgreedSurface, is_boundary: Mask) -> AgreedSurface:
