@@ -62,6 +62,12 @@ def whole_files(folder: Path) -> dict[str, list[bytes]]:
         fields.format("binary").encode() + CAP.points.tobytes(),
         fields.format("binary_compressed").encode() + sizes + packed,
     ]
+    head = f"# vtk DataFile Version 3.0\npoints\nASCII\nDATASET POLYDATA\nPOINTS 40 double\n{only}"
+    files[".vtk"] = [head.encode()]
+    array = f'<DataArray type="Float64" NumberOfComponents="3" format="ascii">{only}</DataArray>'
+    piece = f'<Piece NumberOfPoints="40"><Points>{array}</Points></Piece>'
+    for suffix, kind in ((".vtp", "PolyData"), (".vtu", "UnstructuredGrid")):
+        files[suffix] = [f'<VTKFile type="{kind}" version="0.1"><{kind}>{piece}</{kind}></VTKFile>'.encode()]
     return files | _laser_files(folder)
 
 

@@ -13,6 +13,12 @@ ROWS = "".join(f"{x!r} {y!r} {z!r} {i}\n" for i, (x, y, z) in enumerate(CAP.poin
 POSE = "0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n"
 PCD = "VERSION 0.7\nFIELDS x y z i\nSIZE 8 8 8 8\nTYPE F F F F\nCOUNT 1 1 1 1\nWIDTH 12\nHEIGHT 1\nPOINTS 12\n"
 BY_HAND = {".pcd": PCD + "DATA ascii\n" + ROWS, ".ptx": f"4\n3\n{POSE}{ROWS}", ".pts": f"12\n{ROWS}"}
+ONLY = "".join(f"{x!r} {y!r} {z!r}\n" for x, y, z in CAP.points.tolist())
+BY_HAND[".vtk"] = f"# vtk DataFile Version 3.0\npoints\nASCII\nDATASET POLYDATA\nPOINTS 12 double\n{ONLY}"
+for suffix, kind in ((".vtp", "PolyData"), (".vtu", "UnstructuredGrid")):
+    array = f'<DataArray type="Float64" NumberOfComponents="3" format="ascii">{ONLY}</DataArray>'
+    piece = f'<Piece NumberOfPoints="12"><Points>{array}</Points></Piece>'
+    BY_HAND[suffix] = f'<VTKFile type="{kind}" version="0.1"><{kind}>{piece}</{kind}></VTKFile>'
 FORMATS = [suffix for suffix in READABLE_SUFFIXES if suffix not in (".las", ".laz", ".e57")]  # of extras, by libraries
 AWKWARD = st.sampled_from([b"-1", b"99999999999999999999", b"nan", b"1e999", b'"', b"\0", b"#", b"\n", b"\xff" * 8])
 

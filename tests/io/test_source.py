@@ -62,7 +62,7 @@ def test_a_control_z_ends_a_text(tmp_path):
     [
         ("a.rcs", "a scan of Autodesk ReCap; export"),
         ("a.DRC", "compressed by Draco; unpack"),
-        ("a.vtp", "a file of VTK"),
+        ("a.fls", "a scan of FARO"),
     ],
 )
 def test_a_format_that_cannot_be_read_says_with_which_program(tmp_path, name, what):

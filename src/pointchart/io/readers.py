@@ -17,6 +17,8 @@ from .scanner_text import read_pts, read_ptx
 from .source import AnyPath, split_suffix
 from .stl import read_stl
 from .text import read_text
+from .vtk_points import read_vtk
+from .vtk_xml import read_vtk_xml
 
 # In the order in which a message names them.
 _READERS: dict[str, Callable[[AnyPath], Scan]] = {
@@ -36,6 +38,9 @@ _READERS: dict[str, Callable[[AnyPath], Scan]] = {
     ".pts": read_pts,
     ".ptx": read_ptx,
     ".pcd": read_pcd,
+    ".vtk": read_vtk,
+    ".vtp": read_vtk_xml,
+    ".vtu": read_vtk_xml,
     ".npy": read_npy,
     ".npz": read_npz,
     ".las": read_las,

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 def scan_argument() -> Any:
     """Describe the scan."""
-    told = "Point cloud: ply, pcd, las, laz, e57, xyz, txt, csv, pts, ptx, asc, obj, off, stl, glb, npy, npz; or .gz."
+    told = "Point cloud: ply, pcd, las, laz, e57, xyz, txt, csv, pts, ptx, asc, vtk, obj, off, stl, glb, npz; or .gz."
     return argument("SCAN", told)
 
 
