@@ -68,6 +68,11 @@ def whole_files(folder: Path) -> dict[str, list[bytes]]:
     piece = f'<Piece NumberOfPoints="40"><Points>{array}</Points></Piece>'
     for suffix, kind in ((".vtp", "PolyData"), (".vtu", "UnstructuredGrid")):
         files[suffix] = [f'<VTKFile type="{kind}" version="0.1"><{kind}>{piece}</{kind}></VTKFile>'.encode()]
+    import tifffile
+
+    place = [(33550, 12, 3, (2.0, 2.0, 0.0)), (33922, 12, 6, (0.0, 0.0, 0.0, 100.0, 200.0, 0.0))]
+    tifffile.imwrite(folder / "whole.tif", CAP.points[:, 2].reshape(8, 5), extratags=place)
+    files[".tif"] = [(folder / "whole.tif").read_bytes()]
     return files | _laser_files(folder)
 
 
@@ -136,7 +141,7 @@ def main() -> None:
     parser.add_argument("--seconds", type=float, default=600.0)
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--keep", type=Path, default=Path("fuzz"), help="folder of inputs that failed")
-    parser.add_argument("--formats", nargs="*", default=[s for s in READABLE_SUFFIXES if s != ".e57"])
+    parser.add_argument("--formats", nargs="*", default=[s for s in READABLE_SUFFIXES if s not in (".e57", ".tiff")])
     options = parser.parse_args()
     options.keep.mkdir(exist_ok=True)
     draw, tried, failed = np.random.default_rng(options.seed), dict.fromkeys(options.formats, 0), []

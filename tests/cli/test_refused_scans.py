@@ -49,7 +49,7 @@ def test_an_unreadable_file_is_refused(refused, folder, sheet):
 def test_an_unknown_suffix_is_refused_with_those_known(refused, folder):
     (folder / "scan.docx").write_text("points")
     assert refused("mesh", "scan.docx").startswith(
-        "scan.docx: the suffix '.docx' is none of the 24 that can be read: .ply, "
+        "scan.docx: the suffix '.docx' is none of the 26 that can be read: .ply, "
     )
 
 

@@ -315,7 +315,7 @@ def test_a_file_cut_anywhere_or_with_a_false_byte_is_read_or_refused(tmp_path, s
 
 
 def test_an_unknown_suffix_is_refused_with_those_that_are_known(tmp_path):
-    with pytest.raises(FormatError, match=r"the suffix '.docx' is none of the 24 that can be read: .ply, .obj"):
+    with pytest.raises(FormatError, match=r"the suffix '.docx' is none of the 26 that can be read: .ply, .obj"):
         read_scan(tmp_path / "scan.docx")
 
 

@@ -19,7 +19,9 @@ for suffix, kind in ((".vtp", "PolyData"), (".vtu", "UnstructuredGrid")):
     array = f'<DataArray type="Float64" NumberOfComponents="3" format="ascii">{ONLY}</DataArray>'
     piece = f'<Piece NumberOfPoints="12"><Points>{array}</Points></Piece>'
     BY_HAND[suffix] = f'<VTKFile type="{kind}" version="0.1"><{kind}>{piece}</{kind}></VTKFile>'
-FORMATS = [suffix for suffix in READABLE_SUFFIXES if suffix not in (".las", ".laz", ".e57")]  # of extras, by libraries
+FORMATS = [
+    suffix for suffix in READABLE_SUFFIXES if suffix not in (".las", ".laz", ".e57", ".tif", ".tiff")
+]  # of extras, by libraries
 AWKWARD = st.sampled_from([b"-1", b"99999999999999999999", b"nan", b"1e999", b'"', b"\0", b"#", b"\n", b"\xff" * 8])
 
 

@@ -16,8 +16,6 @@ _ADVICE = {
     ".bin": f"mostly a file of CloudCompare; {_EXPORT} it",
     ".mlp": f"a project of MeshLab; {_EXPORT} it",
     ".drc": "compressed by Draco; unpack it by draco_decoder -i FILE.drc -o FILE.ply",
-    ".tif": "an image or a grid of heights; gdal_translate -of XYZ makes a grid text",
-    ".tiff": "an image or a grid of heights; gdal_translate -of XYZ makes a grid text",
     ".splat": "made of Gaussian splats; save it as .ply in SuperSplat",
     ".ksplat": "made of Gaussian splats; save it as .ply in SuperSplat",
     ".bag": "a recording of a sensor; save a frame as .ply in RealSense Viewer, or .pcd by pcl_ros bag_to_pcd",

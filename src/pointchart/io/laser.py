@@ -4,7 +4,6 @@ import os
 import subprocess
 import sys
 from dataclasses import dataclass
-from importlib import import_module
 from pathlib import Path
 from struct import unpack, unpack_from
 from tempfile import TemporaryDirectory
@@ -15,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import FormatError
+from .extras import extra_module
 from .scan import Scan, common_columns, scan_from_columns
 from .source import AnyPath, check_readable
 
@@ -39,7 +39,7 @@ def read_las(path: AnyPath) -> Scan:
     Points that the file withholds, or that are classified as noise, are no points.
     """
     check_readable(path)
-    laspy = _extra(path, "laspy", "las")
+    laspy = extra_module(path, "laspy", "las")
     header = _check_las_header(path)
     if not header.is_packed:
         return _las_scan(path, laspy, path)
@@ -92,7 +92,7 @@ def read_e57(path: AnyPath) -> Scan:
     Intensity and colours are kept when every scan has them; other fields are passed over.
     """
     check_readable(path)
-    pye57 = _extra(path, "pye57", "e57")
+    pye57 = extra_module(path, "pye57", "e57")
     try:
         file = pye57.E57(str(path))
         scans = [_e57_scan(file, i) for i in range(file.scan_count)]
@@ -160,10 +160,3 @@ def _check_laz_chunks(path: AnyPath, start: int, size: int) -> None:
         raise FormatError(
             f"{path}: the table of {n_chunks} chunks at byte {table} is no part of its {size} bytes; copy it again"
         )
-
-
-def _extra(path: AnyPath, module: str, extra: str) -> ModuleType:
-    try:
-        return import_module(module)
-    except ImportError:
-        raise FormatError(f"{path}: the package {module} is not installed; pip install 'pointchart[{extra}]'") from None

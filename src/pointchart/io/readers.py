@@ -5,6 +5,7 @@ from collections.abc import Callable
 from ..errors import FormatError
 from .advice import advice_on
 from .arrays import read_npy, read_npz
+from .geotiff import read_geotiff
 from .glb import read_glb
 from .grids import read_asc
 from .laser import read_e57, read_las
@@ -41,13 +42,21 @@ _READERS: dict[str, Callable[[AnyPath], Scan]] = {
     ".vtk": read_vtk,
     ".vtp": read_vtk_xml,
     ".vtu": read_vtk_xml,
+    ".tif": read_geotiff,
+    ".tiff": read_geotiff,
     ".npy": read_npy,
     ".npz": read_npz,
     ".las": read_las,
     ".laz": read_las,
     ".e57": read_e57,
 }
-_FROM_DISK = (read_npy, read_npz, read_las, read_e57)  # by libraries that open the file themselves: not packed
+_FROM_DISK = (
+    read_npy,
+    read_npz,
+    read_las,
+    read_e57,
+    read_geotiff,
+)  # by libraries that open the file themselves: not packed
 _TEXT = (read_text, read_asc, read_pts)
 READABLE_SUFFIXES = tuple(_READERS)  # in lower case, as suffixes are compared
 
