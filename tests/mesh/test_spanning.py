@@ -1,29 +1,34 @@
 """Triangles over narrow slots."""
 
-import numpy as np
+import pytest
 
-from pointchart import reconstruct, shapes
-from pointchart.mesh.spanning import spanning_triangles
-from pointchart.report.mesh_notes import slot_notes
-
-
-def comb():
-    """A sheet with slots of three spacings and a half, from one side nearly to the other."""
-    x, y = np.meshgrid(np.arange(42.0), np.arange(40.0))
-    points = np.column_stack([x.ravel(), y.ravel(), np.zeros(x.size)])
-    in_slot = (points[:, 0] % 8 > 4.3) & (points[:, 1] > 4)
-    points[:, :2] += np.random.default_rng(3).normal(0, 0.05, (len(points), 2))
-    return points[~in_slot]
+from pointchart import shapes
+from pointchart.mesh.spanning import SPANNING, spanning_triangles
+from pointchart.report.mesh_notes import SLOTS, slot_notes
 
 
-def test_slots_that_a_mesh_closes_are_named_and_a_sheet_has_none():
-    made = reconstruct(comb())
-    n_spanning, share = spanning_triangles(comb(), made.triangles)
-    open_share = 1 - len(comb()) / 1680
-    if share < 0.02:
-        assert len(made.loop) > 300, "the slots are open"
-    else:
-        assert 0.5 * open_share < share < 1.5 * open_share, "slots are wider by a spacing than the points they lack"
-        assert f"{n_spanning} triangles with edges of over 2.5 spacings" in slot_notes(n_spanning, share)[0].text
+def plate(wide):
+    """A grid of 21 by 21 with its columns from the tenth on moved, so that one strip is so many spacings wide."""
+    sheet = shapes.grid(21, 21)
+    points = sheet.points.copy()
+    points[points[:, 0] >= 10, 0] += wide - 1.0
+    return points, sheet.triangles
+
+
+@pytest.mark.parametrize("wide", [2.0, 3.0, 4.0, 6.0])
+def test_triangles_over_a_wide_strip_are_counted_with_their_share_of_the_area(wide):
+    n_spanning, share = spanning_triangles(*plate(wide))
+    # At the ends of the strip the spacing is that across it, so that a triangle or two do not count there.
+    assert n_spanning in (range(36, 41) if wide > SPANNING else [0])
+    assert share == pytest.approx(n_spanning / 40 * wide / (19 + wide))
+    said = slot_notes(n_spanning, share)
+    assert bool(said) == (share > SLOTS)
+    if said:
+        assert said[0].text.startswith(f"look at {n_spanning} triangles with edges of over 2.5 spacings, ")
+
+
+def test_uneven_sheets_have_hardly_any():
     whole = shapes.relief(900, seed=4)
-    assert slot_notes(*spanning_triangles(whole.points, whole.triangles)) == []
+    n_spanning, share = spanning_triangles(whole.points, whole.triangles)
+    assert slot_notes(n_spanning, share) == []
+    assert n_spanning < 0.02 * len(whole.triangles)
