@@ -112,9 +112,11 @@ def search_boundary(cloud: Points, near: Vicinity) -> FoundBoundary:
     scores = score_points(near.smoothed, near.around, near.star, agreed.triangles, near.spacing, near.sides)
     is_boundary = scores.is_boundary
     surface, found = _with_loops(cloud, near, agreed, is_boundary)
-    opened, slotted = _with_loops(cloud, near, without_slots(near.smoothed, agreed, is_boundary, near), is_boundary)
-    if _longest(slotted) >= SLOTTED * _longest(found):
-        surface, found = opened, slotted
+    less = without_slots(near.smoothed, agreed, is_boundary, near)
+    if less is not agreed:
+        opened, slotted = _with_loops(cloud, near, less, is_boundary)
+        if _longest(slotted) >= SLOTTED * _longest(found):
+            surface, found = opened, slotted
     scale = float(np.median(near.spacing))
     good = [c for c in found if c.share >= LEAST_SHARE and c.share * c.length >= SHORTEST * scale]
     if not good:

@@ -11,7 +11,7 @@ from ...io import MESH_SUFFIXES, check_digits, classes_in, write_mesh
 from ...look.page import PAGE_SUFFIXES, compose, writing_page
 from ...look.page.html_page import HtmlPage
 from ...mesh.distortion import vertex_stretches
-from ...mesh.spanning import spanning_triangles
+from ...mesh.spanning import SPANNING, spanning_triangles
 from ...pipeline import Reconstruction, reconstruct
 from ...report.as_json import writing_json
 from ...report.checks import certificate_checks, summary
@@ -108,7 +108,8 @@ def _notes(meshed: MeshedScan, inputs: Inputs, run: MeshRun) -> list[Note]:
 
 def _slots(meshed: MeshedScan, run: MeshRun) -> list[Note]:
     """Say that narrow slots may be closed; a height field spans what it spans."""
-    if run.mesh.plane is not None:
+    longest = meshed.result.certificate.longest_edge_over_spacing
+    if run.mesh.plane is not None or longest <= SPANNING:
         return []
     return slot_notes(*spanning_triangles(meshed.points, meshed.result.triangles))
 
