@@ -71,6 +71,12 @@ def test_a_header_that_names_no_coordinates_is_quoted_and_columns_are_asked_for(
     np.testing.assert_array_equal(chosen.points, POINTS)
 
 
+@pytest.mark.parametrize("header", ["X_local,Y_local,Z_local,X_utm,Y_utm,Z_utm", "x_m,y_m,z_m,Easting,Northing,Height"])
+def test_of_two_systems_of_coordinates_none_is_guessed(scan_of, header):
+    with pytest.raises(FormatError, match="names 6 columns, not one each x, y and z"):
+        scan_of(header + "\n" + text_of([*row, *row] for row in ROWS))
+
+
 def test_longitude_and_latitude_are_named_as_degrees(scan_of):
     with pytest.raises(
         FormatError, match="names longitude and latitude, which are degrees and no lengths; project them"

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 # A unit behind a name: in brackets of any kind, or a suffix.
 _UNIT = re.compile(r"[\s_]*(?:\[.*\]|\(.*\)|(?<=[\s_])(?:m|mm|cm|km|ft|in|um|µm|meters?|metres?|feet))$")
 # x alone, or with a word of place before or behind it; ParaView numbers the components of `Points`.
-_PLACE = r"(?:p|pos|position|points?|coords?|coordinates?|loc|location|cartesian|vertex|scan|utm|world)"
+_PLACE = r"(?:p|pos|position|points?|coords?|coordinates?|loc|location|cartesian|vertex|scan|utm|local|global|world)"
 _CARTESIAN = re.compile(rf"(?:{_PLACE}[\s_:.-]*)?([xyz])(?:[\s_:.-]*{_PLACE})?")
 _COMPONENT = re.compile(rf"{_PLACE}[\s_:.-]*([012])")
 # Words of surveyors, English and German; the last two rows are angles.
